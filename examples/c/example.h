@@ -1,0 +1,55 @@
+/* What the examples share: options, error check, lifted gates, a run with a progress line, a summary. */
+#ifndef GRANPERI_EXAMPLE_H
+#define GRANPERI_EXAMPLE_H
+
+#include <granperi/gp.h>
+
+/* The options that every example takes. An example sets its own defaults before it calls example_parse. */
+typedef struct example_options {
+    double resolution;   /* particles over the reference length */
+    double end;          /* s */
+    double threads;      /* 0: the OpenMP default */
+    double lift_time;    /* s in which a gate clears the height of its column; 0: no gates */
+    double mu_s_degrees; /* friction angle at rest */
+    double mu_2_degrees; /* friction angle of fast flow */
+    const char *output;  /* HDF5 file; "none": no file */
+} example_options;
+
+/* One option more, a number, for a single example. */
+typedef struct example_extra {
+    const char *name;     /* "--..." */
+    const char *argument; /* for the help: what follows it */
+    const char *help;
+    double *value;
+    double low, high; /* the range allowed */
+    int whole;        /* 1: a whole number */
+} example_extra;
+
+/* Glass beads, 1 s, gates that take 0.1 s; the file is only the default if this build of the library can write it. */
+example_options example_defaults(double resolution, double end, const char *output);
+
+/* Reads the command line. --help ends the program with status 0, a bad option with a message and status 2.
+ * An end that is NAN stands for "depends on the case". extra may be NULL. */
+void example_parse(int argc, char **argv, const char *about, example_options *options, const example_extra *extra);
+
+/* Ends the program with the library's message if a call failed: with status 2 if an argument was wrong, else 1. */
+void example_check(gp_status status, const char *call);
+#define CHECK(call) example_check((call), #call)
+
+/* A simulation of this spacing whose material 1 is glass beads of this diameter (m) with the friction of the options.
+ */
+gp_sim *example_create(const example_options *options, double spacing, double grain_diameter);
+
+/* A rough floor at y = 0 from x_left to x_right. */
+void example_add_floor(gp_sim *sim, double x_left, double x_right);
+
+enum { EXAMPLE_MATERIAL_LEFT, EXAMPLE_MATERIAL_RIGHT };
+
+/* A smooth gate at x, wetted on the given side, that is lifted off a column of this height. Nothing if lift_time is 0.
+ */
+void example_add_gate(gp_sim *sim, double x, int side, double height, double spacing, double lift_time);
+
+/* Runs to options->end with a frame every 0.01 s and prints the summary: lines of "name value unit". */
+void example_run(gp_sim *sim, const example_options *options);
+
+#endif

@@ -1,0 +1,410 @@
+/* granperi: granular peridynamics.
+ *
+ * Dry granular flow in two dimensions, from first slip to full arrest, behind a stable C interface.
+ *
+ * Conventions that hold for every call
+ *   - SI units throughout. The domain is two-dimensional; energies, masses and forces are per metre of depth.
+ *   - Every call that can fail returns a gp_status: GP_OK (0), positive for information, negative for an error.
+ *     After an error gp_last_error() holds a text that names the argument, its value and what was expected.
+ *   - Unless a call says otherwise, an error leaves the simulation and all outputs as they were;
+ *     a handle or count that the call was to fill in is set to NULL or 0.
+ *   - Every number passed in is checked. A value outside the stated range is GP_E_ARGUMENT; nothing is ever clamped.
+ *   - A struct passed in begins with struct_size and is filled by its _init function first. Structs grow only at
+ *     their end: a shorter one (an older program) is completed with defaults, a longer one whose unknown tail is
+ *     not zero is GP_E_VERSION.
+ *   - All input is copied: the caller may free its arrays when the call returns.
+ *   - Distinct simulations may be used from distinct threads at the same time. One simulation belongs to one
+ *     thread at a time.
+ *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
+ *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), written to its open output
+ *     (gp_output_write) and driven (gp_set_plate_velocity). Every other call on it returns GP_E_STATE.
+ *
+ * References
+ *   [1] Jin, Lu, Tai & Xu (2021), J. Fluid Mech. 917: peridynamics in a mesh-free method with the mu(I) rheology.
+ *   [2] Dunatunga & Kamrin (2015), J. Fluid Mech. 779: the return map of the mu(I) law.
+ *   [3] Adami, Hu & Adams (2012), J. Comput. Phys. 231: wall pressure extrapolated from the fluid.
+ */
+#ifndef GRANPERI_GP_H
+#define GRANPERI_GP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifndef GP_API
+#if defined(GP_BUILDING) && defined(__GNUC__)
+#define GP_API __attribute__((visibility("default")))
+#else
+#define GP_API
+#endif
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GP_VERSION_MAJOR 0
+#define GP_VERSION_MINOR 1
+#define GP_VERSION_PATCH 0
+
+/* ------------------------------------------------------------------------------------------------ status */
+
+typedef int32_t gp_status;
+
+enum {
+    GP_OK = 0,
+    GP_STOPPED = 1,        /* information: the callback asked to stop; the step it saw is complete */
+    GP_E_ARGUMENT = -1,    /* an argument is missing, not finite, out of range or inconsistent */
+    GP_E_STATE = -2,       /* the call is out of order, or was made from inside a callback */
+    GP_E_MEMORY = -3,      /* out of memory */
+    GP_E_IO = -4,          /* a file could not be created, written or read */
+    GP_E_DIVERGED = -5,    /* a value became non-finite; the simulation can be read and destroyed, not stepped */
+    GP_E_UNSUPPORTED = -6, /* the option exists, but this build or version does not have it */
+    GP_E_VERSION = -7,     /* a struct or file comes from a newer version */
+    GP_E_INTERNAL = -8     /* a defect of the library: please report the text of gp_last_error() */
+};
+
+/* Static English text for a status; "unknown status" for any other number. Never NULL. */
+GP_API const char *gp_status_string(gp_status status);
+
+/* Text of this thread's most recent error, "" if there was none. Never NULL; valid until this thread's next call. */
+GP_API const char *gp_last_error(void);
+
+/* ----------------------------------------------------------------------------------------------- version */
+
+/* Version of the library that runs, as major * 10000 + minor * 100 + patch. */
+GP_API uint32_t gp_version(void);
+
+/* The same as text, e.g. "0.1.0". */
+GP_API const char *gp_version_string(void);
+
+/* 1 if this build has the named feature, else 0. Features: "hdf5", "openmp". NULL or an unknown name gives 0. */
+GP_API int32_t gp_has_feature(const char *name);
+
+/* --------------------------------------------------------------------------------------------- parameters */
+
+/* Presets: which scheme gp_config_init describes. */
+enum {
+    GP_PRESET_DEFAULT = 0,    /* continuity density, return map, extrapolated walls */
+    GP_PRESET_PAPER = 1,      /* the non-local scheme of [1] as printed; not yet: GP_E_UNSUPPORTED at gp_create */
+    GP_PRESET_PAPER_LOCAL = 2 /* the local model of [1]; not yet: GP_E_UNSUPPORTED at gp_create */
+};
+
+/* How the deviatoric stress follows from the motion. */
+enum {
+    GP_STRESS_ELASTIC = 0,     /* elastic trial with the mu(I) return map of [2]: a true yield, no regularisation */
+    GP_STRESS_REGULARIZED = 1, /* eta_r of [1], explicit; not yet: GP_E_UNSUPPORTED at gp_create */
+    GP_STRESS_IMPLICIT = 2     /* eta_r of [1], implicit; not yet: GP_E_UNSUPPORTED at gp_create */
+};
+
+/* How the density is found. */
+enum {
+    GP_DENSITY_CONTINUITY = 0, /* D rho / Dt = -rho div u */
+    GP_DENSITY_NUMBER = 1      /* from the particle number density, [1] 2.4; not yet: GP_E_UNSUPPORTED at gp_create */
+};
+
+typedef struct gp_config {
+    uint32_t struct_size;
+    double spacing;              /* m, particle distance dl; > 0 [0.0025] */
+    double gravity_x;            /* m/s2 [0] */
+    double gravity_y;            /* m/s2 [-9.81] */
+    double sound_speed;          /* m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling
+                                    from its highest to its lowest point, by its initial and plate velocities [0] */
+    double cfl;                  /* time step over dl / (elastic wave speed); 0: the scheme's own; <= 2 [0] */
+    double time_step;            /* s, fixed; 0: adaptive. Larger than the stable limit: refused at the first step [0] */
+    double interaction_radius;   /* dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4] */
+    double horizon;              /* dl, radius of the peridynamic operators; 1.5 .. 8 [4] */
+    double horizon_length;       /* m, the horizon as a fixed length; 0: use horizon [0] */
+    int32_t nonlocal;            /* 1: peridynamic force states; 0: local model; not yet: GP_E_UNSUPPORTED [1] */
+    int32_t stress;              /* GP_STRESS_... [GP_STRESS_ELASTIC] */
+    int32_t density;             /* GP_DENSITY_... [GP_DENSITY_CONTINUITY] */
+    double friction_factor;      /* multiplies mu(I): [1] equation 3.12 as printed amounts to 2; 0 .. 10 [1] */
+    double delta;                /* 1/s, regularisation of the viscosity ([1] 3.6), here only of the reported one; > 0 [1e-6] */
+    double collision_distance;   /* dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9] */
+    double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5
+                                    [the scheme's own: 0.02] */
+    double density_diffusion;    /* smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1
+                                    [the scheme's own: 0.2] */
+    double channel_width;        /* m between the side walls; 0: none; else not yet: GP_E_UNSUPPORTED [0] */
+    double channel_friction;     /* Coulomb coefficient of the side walls; needs channel_width [0] */
+    double periodic_x_min;       /* m; with periodic_x_max > periodic_x_min the scene is periodic in x; */
+    double periodic_x_max;       /* not yet: GP_E_UNSUPPORTED unless both are equal [0, 0] */
+    int32_t threads;             /* OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The
+                                    results are the same bits for any number */
+    uint64_t seed;               /* of the jitter [0] */
+    double jitter;               /* dl, columns' particles are displaced at random by up to this much in x and y;
+                                    0 .. 0.5 (exclusive) [0] */
+    int32_t preset;              /* GP_PRESET_..., set by gp_config_init */
+    double bulk_viscosity;       /* of volume changes under pressure, in rho c0 dl; 0: off; 0 .. 1 [the scheme's own: 0.2] */
+} gp_config;
+
+/* Fills *config with the defaults of the preset. size: sizeof(gp_config). */
+GP_API gp_status gp_config_init(gp_config *config, size_t size, int32_t preset);
+
+typedef struct gp_material {
+    uint32_t struct_size;
+    double grain_density;   /* kg/m3, rho_s; > 0 [2500] */
+    double volume_fraction; /* phi, so rho = phi rho_s; > 0, <= 1 [0.62] */
+    double grain_diameter;  /* m, d; > 0 [0.002] */
+    double mu_s;            /* friction at I = 0; >= 0 [tan 21 deg] */
+    double mu_2;            /* friction at large I; >= mu_s [tan 32 deg] */
+    double i0;              /* I at which mu is half way between; > 0 [0.3] */
+} gp_material;
+
+/* Fills *material with glass beads. size: sizeof(gp_material). */
+GP_API gp_status gp_material_init(gp_material *material, size_t size);
+
+/* The pressure with which a column begins. */
+enum {
+    GP_INITIAL_HYDROSTATIC = 0, /* in balance with the plates that support the column: no shock at the start */
+    GP_INITIAL_NONE = 1         /* none: gravity sets in suddenly */
+};
+
+typedef struct gp_column {
+    uint32_t struct_size;
+    double x_min, y_min;      /* m, lower left corner */
+    double width, height;     /* m; > 0, rounded to whole spacings (the log says so), at least one */
+    int32_t material;         /* id of gp_add_material; 0 is always there [0] */
+    double vx, vy;            /* m/s, initial velocity [0, 0] */
+    int32_t initial_pressure; /* GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the
+                                 opposite face, for each face of normal n into which gravity presses and along which
+                                 plates cover at least half; nothing for a face that no plate supports */
+} gp_column;
+
+/* Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column). */
+GP_API gp_status gp_column_init(gp_column *column, size_t size);
+
+/* What the wall does to the tangential velocity. */
+enum {
+    GP_WALL_NO_SLIP = 0,   /* the material sticks to a rough wall as far as its own friction allows */
+    GP_WALL_FREE_SLIP = 1, /* no tangential traction */
+    GP_WALL_COULOMB = 2    /* tangential traction up to wall_mu times the normal one */
+};
+
+typedef struct gp_plate {
+    uint32_t struct_size;
+    double x0, y0, x1, y1;  /* m, ends of the wetted line. The plate's body is on the left of the way from end 0 to
+                               end 1, material is on the right; the plate acts on material on that side only, so a
+                               thin plate wetted on both sides is two plates back to back. The two ends differ */
+    int32_t friction;       /* GP_WALL_... [GP_WALL_NO_SLIP] */
+    double wall_mu;         /* Coulomb coefficient, for GP_WALL_COULOMB only; >= 0 [0] */
+    double vx, vy;          /* m/s, constant velocity; not with a table [0, 0] */
+    int64_t n_knots;        /* length of the displacement table; 0: none [0] */
+    const double *knot_t;   /* s, shape (n_knots), strictly increasing */
+    const double *knot_x;   /* m, shape (n_knots), displacement; linear between knots, at rest before and after */
+    const double *knot_y;   /* m, shape (n_knots) */
+    double normal_pressure; /* Pa; 0: the motion is prescribed; else not yet: GP_E_UNSUPPORTED [0] */
+    double mass_per_length; /* kg/m2 of a loaded plate; only with normal_pressure [0] */
+} gp_plate;
+
+/* Fills *plate with a fixed no-slip plate: its ends have to be set. size: sizeof(gp_plate). */
+GP_API gp_status gp_plate_init(gp_plate *plate, size_t size);
+
+/* -------------------------------------------------------------------------------------------------- scene */
+
+typedef struct gp_sim gp_sim;
+
+/* Creates an empty simulation; *sim is NULL on error. */
+GP_API gp_status gp_create(const gp_config *config, gp_sim **sim);
+
+/* Frees it, closing its output. NULL is fine. Ignored when called from inside its own callback. */
+GP_API void gp_destroy(gp_sim *sim);
+
+/* The calls that add to the scene are possible until the first step and while no output is open; else GP_E_STATE.
+ * id: receives the new object's number, counted from 0 per kind; may be NULL.
+ * Material 0 (glass beads) exists from the start, so the first added one is 1. Columns and sets of particles share
+ * one count: it is the value of the field GP_FIELD_COLUMN. */
+GP_API gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32_t *id);
+
+/* A rectangle of particles on the lattice of the spacing, the first half a spacing inside its corner. */
+GP_API gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id);
+
+/* n particles of any shape, each of the area spacing^2. x, y: shape (n), m; vx, vy: shape (n), m/s, or NULL for rest. */
+GP_API gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y,
+                                  const double *vx, const double *vy, int32_t *id);
+
+GP_API gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
+
+/* The host drives the plate at this velocity (m/s) from now on, from where it is; replaces constant velocity or table.
+ * Possible at any time, also from a callback. */
+GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy);
+
+/* ------------------------------------------------------------------------------------------------ running */
+
+/* Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts time. After GP_E_DIVERGED positions and velocities are those of the last good step; after GP_E_IO
+ * (of an output that writes by itself) the step is complete, the frame is lost and the run may go on. */
+GP_API gp_status gp_step(gp_sim *sim, int64_t n);
+
+/* Steps until the clock shows t_end (s) exactly; the last steps are shortened to land on it. t_end earlier than the
+ * clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step. */
+GP_API gp_status gp_run(gp_sim *sim, double t_end);
+
+/* Called after every `every`-th step in the thread that runs gp_step or gp_run; a non-zero return stops the run. */
+typedef int32_t (*gp_callback)(void *user, gp_sim *sim);
+
+/* every >= 1; callback NULL removes it (every is then not read). */
+GP_API gp_status gp_set_callback(gp_sim *sim, int64_t every, gp_callback callback, void *user);
+
+enum { GP_LOG_INFO = 0, GP_LOG_WARNING = 1 };
+
+/* text is valid during the call only. The library may not be called from inside it. */
+typedef void (*gp_log)(void *user, int32_t level, const char *text);
+
+/* log NULL: silent, as at the start. */
+GP_API gp_status gp_set_log(gp_sim *sim, gp_log log, void *user);
+
+/* ------------------------------------------------------------------------------------------------ reading */
+
+/* Bits of the particle fields. */
+#define GP_FIELD_ID (1u << 0)
+#define GP_FIELD_COLUMN (1u << 1)
+#define GP_FIELD_X (1u << 2)
+#define GP_FIELD_Y (1u << 3)
+#define GP_FIELD_VX (1u << 4)
+#define GP_FIELD_VY (1u << 5)
+#define GP_FIELD_PRESSURE (1u << 6)
+#define GP_FIELD_DENSITY (1u << 7)
+#define GP_FIELD_SXX (1u << 8)
+#define GP_FIELD_SXY (1u << 9)
+#define GP_FIELD_SYY (1u << 10)
+#define GP_FIELD_SHEAR_RATE (1u << 11)
+#define GP_FIELD_INERTIAL_NUMBER (1u << 12)
+#define GP_FIELD_VISCOSITY (1u << 13)
+#define GP_FIELD_NUMBER_DENSITY (1u << 14)
+#define GP_FIELD_POSITION (GP_FIELD_X | GP_FIELD_Y)
+#define GP_FIELD_VELOCITY (GP_FIELD_VX | GP_FIELD_VY)
+#define GP_FIELD_ALL ((1u << 15) - 1u)
+
+typedef struct gp_particles {
+    uint32_t struct_size;   /* set by the caller */
+    int64_t count;          /* number of particles n; every array has the shape (n) */
+    uint64_t epoch;         /* number of changes to the simulation so far: a view is valid while it is the same */
+    const int64_t *id;      /* counted from 0 in the order in which particles were added */
+    const int32_t *column;  /* id of the column or set of particles it came with */
+    const double *x, *y;    /* m */
+    const double *vx, *vy;  /* m/s */
+    const double *pressure; /* Pa, p >= 0 */
+    const double *density;  /* kg/m3 */
+    const double *sxx, *sxy, *syy;  /* Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0 */
+    const double *shear_rate;       /* 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3) */
+    const double *inertial_number;  /* I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4); 0 where p = 0 */
+    const double *viscosity;        /* Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2) */
+    const double *number_density;   /* N = sum of w over the neighbours within interaction_radius ([1] 2.4) */
+} gp_particles;
+
+/* Read-only views of the asked fields (GP_FIELD_... or-ed), in the library's own order, which changes from step to
+ * step: use id. Fields not asked for are NULL. Valid until the next call that changes the simulation. */
+GP_API gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles);
+
+/* One field (exactly one bit), converted to double, in the order of id. n: length of dst, equal to the count. */
+GP_API gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n);
+
+typedef struct gp_state {
+    uint32_t struct_size; /* set by the caller */
+    double time;          /* s */
+    int64_t step;         /* steps taken */
+    double dt;            /* s, last time step */
+    int64_t n_particles;
+    int64_t n_awake;      /* particles that take part in the work: all of them in this version */
+    /* Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals
+     * kinetic + potential + elastic + dissipated + plate_work + energy_error. */
+    double kinetic;
+    double potential;     /* gravitational, zero at the lowest face of the initial material */
+    double elastic;       /* of compression and shear */
+    double dissipated;    /* by friction, collisions, walls and the scheme itself */
+    double plate_work;    /* done by the material on moving plates */
+    double energy_error;  /* what the ledger does not account for: error of the time integration */
+    double momentum_x, momentum_y; /* kg/s: kg m/s per metre of depth */
+    double max_speed, rms_speed;   /* m/s */
+    double x_left, x_right;        /* m, fronts of the connected deposit: the largest set of particles each within
+                                      1.6 dl of another, half a spacing added */
+    double peak_x, peak_height;    /* m, highest point of its surface: x, and y (an absolute coordinate) */
+    double max_pressure;           /* Pa */
+    int32_t at_rest;               /* 1: the material has come to rest: the kinetic energy is below 1e-6 of the scene's
+                                      energy scale, the plastic power of the last step would dissipate less than 1e-4 of it
+                                      in the scene's free-fall time, and the rms acceleration is below 0.05 g.
+                                      The energy scale is the largest of the initial energy of the ledger and the
+                                      largest kinetic energy so far */
+    int64_t collisions;            /* colliding pairs so far ([1] 2.9), each step's counted anew */
+    double wall_seconds;           /* s of wall-clock time inside the steps so far */
+    double sound_speed;            /* m/s, c0 in use */
+    double penalty_dissipated;     /* J/m, the part of dissipated that the zero-energy penalty took */
+    double wall_dissipated;        /* J/m, the part of the extrapolation at plates, of either sign */
+    double diffusion_dissipated;   /* J/m, the part that density diffusion took */
+    double bulk_dissipated;        /* J/m, the part that the bulk viscosity took */
+    double collision_dissipated;   /* J/m, the part that collisions took */
+} gp_state;
+
+GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+/* Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction is 1/2;
+ * 0 where there is no material. x, height: shape (n), m. n >= 0. */
+GP_API gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height);
+
+/* Interface of two columns: x[k] separates the particles of `left` from those of `right` in the row of height
+ * 2 dl about y[k] with the fewest on the wrong side; NaN where they do not touch. left, right: ids of columns or sets of
+ * particles. y, x: shape (n), m. */
+GP_API gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, const double *y, double *x);
+
+typedef struct gp_load {
+    uint32_t struct_size; /* set by the caller */
+    double fx, fy;        /* N/m, force of the material on the plate over the last step */
+    double torque;        /* N, its moment about the plate's end 0 */
+    double dx, dy;        /* m, displacement of the plate since the start */
+    double impulse_x, impulse_y; /* N s/m, integral of fx and fy over time since the start */
+} gp_load;
+
+GP_API gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load);
+
+typedef struct gp_plan_entry {
+    const char *name;   /* static text */
+    const char *reason; /* static text: why it is active or left out */
+    int32_t kind;       /* 0: stage, in the order in which they run; 1: field or table */
+    int32_t active;     /* 1, or 0 if this scene leaves it out */
+    int64_t bytes;      /* of memory held; 0 for a stage */
+    double seconds;     /* wall-clock time spent so far; 0 for a field */
+    int64_t calls;      /* times run so far; 0 for a field */
+    int64_t reserved[2];
+} gp_plan_entry;
+
+/* What the engine does for this scene and what it leaves out. Fills up to n entries; *n_out receives how many there
+ * are in all, so a first call with n = 0 and entries = NULL tells the size. */
+GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int64_t *n_out);
+
+/* -------------------------------------------------------------------------------------------------- files */
+
+/* Bitwise restart. Not yet: both return GP_E_UNSUPPORTED.
+ * gp_load(path, &sim) reads what gp_save wrote. C has one name space for types and functions, and gp_load is also the
+ * type above: hence a macro over the function gp_load_file (binaries also export it as gp_load). */
+GP_API gp_status gp_save(gp_sim *sim, const char *path);
+GP_API gp_status gp_load_file(const char *path, gp_sim **sim);
+#define gp_load(path, sim) gp_load_file((path), (sim))
+
+typedef struct gp_output {
+    uint32_t struct_size;
+    double every_seconds;     /* s; > 0: a frame at the start and after the first step at or past each multiple;
+                                 0: only by gp_output_write [0] */
+    uint32_t fields;          /* GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written
+                                 [position, velocity, pressure, shear_rate, column] */
+    int32_t compression;      /* deflate level, 0 .. 9 [4] */
+    int32_t single_precision; /* 1: floating-point fields as 32 bits; time stays 64 [0] */
+} gp_output;
+
+/* Fills *output with the defaults. size: sizeof(gp_output). */
+GP_API gp_status gp_output_init(gp_output *output, size_t size);
+
+/* Creates the HDF5 file `path` (H5MD layout, an existing one is replaced) and beside it an XDMF file (path with its
+ * extension replaced by .xdmf) for ParaView. Every completed frame survives a crash of the program. output NULL: the
+ * defaults. One output at a time: GP_E_STATE if one is open. */
+GP_API gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output);
+
+/* Writes a frame of the present state; GP_E_STATE if no output is open. */
+GP_API gp_status gp_output_write(gp_sim *sim);
+
+/* Closes the output; GP_E_STATE if none is open. The file is closed also when this returns GP_E_IO. */
+GP_API gp_status gp_output_close(gp_sim *sim);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

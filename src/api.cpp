@@ -1,0 +1,444 @@
+// The only extern "C" file: each call guards against exceptions, checks its pointers, and delegates.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+
+#include "check.hpp"
+#include "diagnostics.hpp"
+#include "error.hpp"
+#include "fields.hpp"
+#include "granperi/gp.h"
+#include "io/output.hpp"
+#include "sim.hpp"
+
+struct gp_sim {
+    explicit gp_sim(const gp_config &config) : sim(config) {}
+
+    gp::Sim sim;
+    std::unique_ptr<gp::io::Output> output;
+
+    // What views point to, and the last measured state; good while the epoch is the same.
+    gp::Field<double> derived[15];
+    gp_state state{};
+    uint64_t state_epoch = std::numeric_limits<uint64_t>::max();
+};
+
+namespace {
+
+using namespace gp;
+
+// Runs body and turns what it throws into a status and a text.
+template <class Body> gp_status guard(const Body &body) noexcept {
+    try {
+        return body();
+    } catch (const Error &error) {
+        set_last_error(error.what());
+        return error.status();
+    } catch (const std::bad_alloc &) {
+        set_last_error("out of memory");
+        return GP_E_MEMORY;
+    } catch (const std::length_error &) {
+        set_last_error("out of memory");
+        return GP_E_MEMORY;
+    } catch (const std::exception &error) {
+        set_last_error(error.what());
+        return GP_E_INTERNAL;
+    } catch (...) {
+        set_last_error("unknown exception");
+        return GP_E_INTERNAL;
+    }
+}
+
+// For calls that change the simulation: not possible inside its callback.
+Sim &outside_callback(gp_sim *handle, const char *call) {
+    require_pointer("sim", handle);
+    if (handle->sim.in_callback())
+        throw make_error(GP_E_STATE, "%s: called from inside the simulation's callback", call);
+    return handle->sim;
+}
+
+Sim &readable(gp_sim *handle) {
+    require_pointer("sim", handle);
+    handle->sim.prepare();
+    return handle->sim;
+}
+
+// The struct that the caller means: an older, shorter one is completed with defaults; a newer one is understood as long
+// as what this version does not know is zero.
+template <class T> T complete(const T *given, const T &defaults, const char *name) {
+    require_pointer(name, given);
+    uint32_t size;
+    std::memcpy(&size, given, sizeof size);
+    if (size < 2 * sizeof(uint32_t))
+        throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected the size that %s_init sets", name, size, name);
+    T whole = defaults;
+    std::memcpy(static_cast<void *>(&whole), given, std::min<std::size_t>(size, sizeof(T)));
+    whole.struct_size = sizeof(T);
+    const auto *bytes = reinterpret_cast<const unsigned char *>(given);
+    for (std::size_t k = sizeof(T); k < size; ++k)
+        if (bytes[k] != 0)
+            throw make_error(GP_E_VERSION, "%s.struct_size = %u: sets a field that this version (%zu bytes) does not know",
+                             name, size, sizeof(T));
+    return whole;
+}
+
+template <class T> gp_status initialise(T *target, std::size_t size, const T &defaults, const char *name) {
+    require_pointer(name, target);
+    if (size < 2 * sizeof(uint32_t) || size > 65536)
+        throw make_error(GP_E_ARGUMENT, "size = %zu: expected sizeof(%s)", size, name);
+    T whole = defaults;
+    whole.struct_size = static_cast<uint32_t>(size);
+    std::memset(static_cast<void *>(target), 0, size);
+    std::memcpy(static_cast<void *>(target), &whole, std::min(size, sizeof(T)));
+    return GP_OK;
+}
+
+// Hands out a struct that the library fills, as much of it as the caller has room for.
+template <class T> gp_status hand_out(T *target, T filled, const char *name) {
+    require_pointer(name, target);
+    const uint32_t size = target->struct_size;
+    if (size < 2 * sizeof(uint32_t))
+        throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected sizeof(%s), set by the caller", name, size, name);
+    filled.struct_size = size;
+    std::memcpy(static_cast<void *>(target), &filled, std::min<std::size_t>(size, sizeof(T)));
+    return GP_OK;
+}
+
+void require_stations(int64_t n, const char *in_name, const double *in, const char *out_name, const double *out) {
+    if (n < 0)
+        throw make_error(GP_E_ARGUMENT, "n = %lld: expected a whole number >= 0", static_cast<long long>(n));
+    if (n == 0)
+        return;
+    require_pointer(in_name, in);
+    require_pointer(out_name, out);
+    for (int64_t k = 0; k < n; ++k)
+        if (!std::isfinite(in[k]))
+            throw make_error(GP_E_ARGUMENT, "%s[%lld] = %g: expected a finite number", in_name,
+                             static_cast<long long>(k), in[k]);
+}
+
+void put_id(int32_t *id, int32_t value) {
+    if (id)
+        *id = value;
+}
+
+} // namespace
+
+extern "C" {
+
+// ------------------------------------------------------------------------------------------ status, version
+
+const char *gp_status_string(gp_status status) { return status_text(status); }
+
+const char *gp_last_error(void) { return last_error(); }
+
+uint32_t gp_version(void) { return GP_VERSION_MAJOR * 10000u + GP_VERSION_MINOR * 100u + GP_VERSION_PATCH; }
+
+#define GP_TEXT(x) #x
+#define GP_NUMBER_TEXT(x) GP_TEXT(x)
+const char *gp_version_string(void) {
+    return GP_NUMBER_TEXT(GP_VERSION_MAJOR) "." GP_NUMBER_TEXT(GP_VERSION_MINOR) "." GP_NUMBER_TEXT(GP_VERSION_PATCH);
+}
+
+int32_t gp_has_feature(const char *name) {
+    if (!name)
+        return 0;
+#ifdef GP_WITH_HDF5
+    if (std::strcmp(name, "hdf5") == 0)
+        return 1;
+#endif
+#ifdef GP_WITH_OPENMP
+    if (std::strcmp(name, "openmp") == 0)
+        return 1;
+#endif
+    return 0;
+}
+
+// ----------------------------------------------------------------------------------------------- parameters
+
+gp_status gp_config_init(gp_config *config, size_t size, int32_t preset) {
+    return guard([&] { return initialise(config, size, default_config(preset), "gp_config"); });
+}
+
+gp_status gp_material_init(gp_material *material, size_t size) {
+    return guard([&] { return initialise(material, size, default_material(), "gp_material"); });
+}
+
+gp_status gp_column_init(gp_column *column, size_t size) {
+    return guard([&] { return initialise(column, size, default_column(), "gp_column"); });
+}
+
+gp_status gp_plate_init(gp_plate *plate, size_t size) {
+    return guard([&] { return initialise(plate, size, default_plate(), "gp_plate"); });
+}
+
+gp_status gp_output_init(gp_output *output, size_t size) {
+    return guard([&] { return initialise(output, size, io::default_output(), "gp_output"); });
+}
+
+// ---------------------------------------------------------------------------------------------------- scene
+
+gp_status gp_create(const gp_config *config, gp_sim **sim) {
+    return guard([&] {
+        require_pointer("sim", sim);
+        *sim = nullptr;
+        // Fields that an older program does not know are those of the preset it knows: the default one.
+        *sim = new gp_sim(complete(config, default_config(GP_PRESET_DEFAULT), "gp_config"));
+        return GP_OK;
+    });
+}
+
+void gp_destroy(gp_sim *sim) {
+    if (sim && !sim->sim.in_callback())
+        delete sim;
+}
+
+gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32_t *id) {
+    return guard([&] {
+        put_id(id, 0);
+        Sim &s = outside_callback(sim, "gp_add_material");
+        put_id(id, s.add_material(complete(material, default_material(), "gp_material")));
+        return GP_OK;
+    });
+}
+
+gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id) {
+    return guard([&] {
+        put_id(id, 0);
+        Sim &s = outside_callback(sim, "gp_add_column");
+        put_id(id, s.add_column(complete(column, default_column(), "gp_column")));
+        return GP_OK;
+    });
+}
+
+gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y, const double *vx,
+                           const double *vy, int32_t *id) {
+    return guard([&] {
+        put_id(id, 0);
+        put_id(id, outside_callback(sim, "gp_add_particles").add_particles(material, n, x, y, vx, vy));
+        return GP_OK;
+    });
+}
+
+gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id) {
+    return guard([&] {
+        put_id(id, 0);
+        Sim &s = outside_callback(sim, "gp_add_plate");
+        put_id(id, s.add_plate(complete(plate, default_plate(), "gp_plate")));
+        return GP_OK;
+    });
+}
+
+gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy) {
+    return guard([&] {
+        require_pointer("sim", sim);
+        sim->sim.set_plate_velocity(plate, vx, vy);
+        return GP_OK;
+    });
+}
+
+// -------------------------------------------------------------------------------------------------- running
+
+gp_status gp_step(gp_sim *sim, int64_t n) {
+    return guard([&] { return outside_callback(sim, "gp_step").step(sim, n); });
+}
+
+gp_status gp_run(gp_sim *sim, double t_end) {
+    return guard([&] { return outside_callback(sim, "gp_run").run(sim, t_end); });
+}
+
+gp_status gp_set_callback(gp_sim *sim, int64_t every, gp_callback callback, void *user) {
+    return guard([&] {
+        outside_callback(sim, "gp_set_callback").set_callback(every, callback, user);
+        return GP_OK;
+    });
+}
+
+gp_status gp_set_log(gp_sim *sim, gp_log log, void *user) {
+    return guard([&] {
+        outside_callback(sim, "gp_set_log").set_log(log, user);
+        return GP_OK;
+    });
+}
+
+// -------------------------------------------------------------------------------------------------- reading
+
+gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles) {
+    return guard([&] {
+        require_pointer("particles", particles);
+        if (fields & ~GP_FIELD_ALL)
+            throw make_error(GP_E_ARGUMENT, "fields = 0x%x: expected bits GP_FIELD_... up to 0x%x", fields, GP_FIELD_ALL);
+        Sim &s = readable(sim);
+        const World &world = s.world();
+        gp_particles view{};
+        view.count = world.particles.count;
+        view.epoch = s.epoch();
+        if (fields & GP_FIELD_ID)
+            view.id = world.particles.id.data();
+        if (fields & GP_FIELD_COLUMN)
+            view.column = world.particles.column.data();
+        const double **pointers[] = {&view.x,        &view.y,   &view.vx,  &view.vy,
+                                     &view.pressure, &view.density, &view.sxx, &view.sxy,
+                                     &view.syy,      &view.shear_rate, &view.inertial_number, &view.viscosity,
+                                     &view.number_density};
+        for (uint32_t k = 0; k < 13; ++k) {
+            const uint32_t bit = GP_FIELD_X << k;
+            if (fields & bit)
+                *pointers[k] = read_field(world, bit, sim->derived[k]);
+        }
+        return hand_out(particles, view, "gp_particles");
+    });
+}
+
+gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
+    return guard([&] {
+        if (field == 0 || (field & (field - 1)) || (field & ~GP_FIELD_ALL))
+            throw make_error(GP_E_ARGUMENT, "field = 0x%x: expected exactly one of the bits GP_FIELD_...", field);
+        const World &world = readable(sim).world();
+        if (n != world.particles.count)
+            throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld", static_cast<long long>(n),
+                             static_cast<long long>(world.particles.count));
+        if (n > 0) {
+            require_pointer("dst", dst);
+            copy_field_by_id(world, field, dst);
+        }
+        return GP_OK;
+    });
+}
+
+gp_status gp_get_state(gp_sim *sim, gp_state *state) {
+    return guard([&] {
+        require_pointer("state", state);
+        Sim &s = readable(sim);
+        if (sim->state_epoch != s.epoch()) {
+            sim->state = measure_state(s.world());
+            sim->state_epoch = s.epoch();
+        }
+        sim->state.wall_seconds = s.wall_seconds();
+        return hand_out(state, sim->state, "gp_state");
+    });
+}
+
+gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height) {
+    return guard([&] {
+        require_stations(n, "x", x, "height", height);
+        const Surface surface(readable(sim).world());
+        for (int64_t k = 0; k < n; ++k)
+            if (!surface.height(x[k], height[k]))
+                height[k] = 0;
+        return GP_OK;
+    });
+}
+
+gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, const double *y, double *x) {
+    return guard([&] {
+        Sim &s = readable(sim);
+        const auto bodies = static_cast<int64_t>(s.scene().bodies().size());
+        require_choice("left", left, bodies);
+        require_choice("right", right, bodies);
+        if (left == right)
+            throw make_error(GP_E_ARGUMENT, "right = %d: expected another column than left", right);
+        require_stations(n, "y", y, "x", x);
+        for (int64_t k = 0; k < n; ++k)
+            if (!interface_at(s.world(), left, right, y[k], x[k]))
+                x[k] = std::numeric_limits<double>::quiet_NaN();
+        return GP_OK;
+    });
+}
+
+gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load) {
+    return guard([&] {
+        require_pointer("load", load);
+        const World &world = readable(sim).world();
+        require_choice("plate", plate, static_cast<int64_t>(world.walls.plates.size()));
+        const Plate &p = world.walls.plates[plate];
+        const Vector moved = p.displacement(world.clock.time);
+        gp_load filled{};
+        filled.fx = p.force.x();
+        filled.fy = p.force.y();
+        filled.torque = p.torque;
+        filled.dx = moved.x();
+        filled.dy = moved.y();
+        filled.impulse_x = p.impulse.x();
+        filled.impulse_y = p.impulse.y();
+        return hand_out(load, filled, "gp_load");
+    });
+}
+
+gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int64_t *n_out) {
+    return guard([&] {
+        require_pointer("n_out", n_out);
+        *n_out = 0;
+        if (n < 0)
+            throw make_error(GP_E_ARGUMENT, "n = %lld: expected a whole number >= 0", static_cast<long long>(n));
+        if (n > 0)
+            require_pointer("entries", entries);
+        const std::vector<gp_plan_entry> plan = readable(sim).plan();
+        std::copy_n(plan.begin(), std::min<std::size_t>(plan.size(), static_cast<std::size_t>(n)), entries);
+        *n_out = static_cast<int64_t>(plan.size());
+        return GP_OK;
+    });
+}
+
+// ---------------------------------------------------------------------------------------------------- files
+
+gp_status gp_save(gp_sim *sim, const char *path) {
+    return guard([&]() -> gp_status {
+        outside_callback(sim, "gp_save");
+        require_pointer("path", path);
+        unsupported("gp_save", "the checkpoint");
+    });
+}
+
+gp_status gp_load_file(const char *path, gp_sim **sim) {
+    return guard([&]() -> gp_status {
+        require_pointer("sim", sim);
+        *sim = nullptr;
+        require_pointer("path", path);
+        unsupported("gp_load", "the checkpoint");
+    });
+}
+
+// The name gp_load for programs that look symbols up: in C it is the type's.
+GP_API gp_status gp_load_symbol(const char *path, gp_sim **sim) __asm__("gp_load");
+gp_status gp_load_symbol(const char *path, gp_sim **sim) { return gp_load_file(path, sim); }
+
+gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output) {
+    return guard([&] {
+        Sim &s = outside_callback(sim, "gp_output_open");
+        require_pointer("path", path);
+        if (sim->output)
+            throw make_error(GP_E_STATE, "gp_output_open: an output is open already; gp_output_close it first");
+        const gp_output options = output ? complete(output, io::default_output(), "gp_output") : io::default_output();
+        s.prepare();
+        sim->output = std::make_unique<io::Output>(path, options, s.world());
+        s.sink = sim->output.get();
+        return GP_OK;
+    });
+}
+
+gp_status gp_output_write(gp_sim *sim) {
+    return guard([&] {
+        require_pointer("sim", sim);
+        if (!sim->output)
+            throw make_error(GP_E_STATE, "gp_output_write: no output is open");
+        sim->output->write(readable(sim).world());
+        return GP_OK;
+    });
+}
+
+gp_status gp_output_close(gp_sim *sim) {
+    return guard([&] {
+        Sim &s = outside_callback(sim, "gp_output_close");
+        if (!sim->output)
+            throw make_error(GP_E_STATE, "gp_output_close: no output is open");
+        s.sink = nullptr;
+        const std::unique_ptr<io::Output> closing = std::move(sim->output);
+        closing->close();
+        return GP_OK;
+    });
+}
+
+} // extern "C"

@@ -1,0 +1,47 @@
+// Checks of numbers from outside: each failure names the argument, its value and what was expected.
+#pragma once
+
+#include <cmath>
+
+#include "error.hpp"
+
+namespace gp {
+
+inline void require(bool ok, const char *name, double value, const char *expected) {
+    if (!ok)
+        throw make_error(GP_E_ARGUMENT, "%s = %g: expected %s", name, value, expected);
+}
+
+inline void require_finite(const char *name, double value) {
+    require(std::isfinite(value), name, value, "a finite number");
+}
+
+inline void require_positive(const char *name, double value) {
+    require(std::isfinite(value) && value > 0, name, value, "a finite number > 0");
+}
+
+inline void require_not_negative(const char *name, double value) {
+    require(std::isfinite(value) && value >= 0, name, value, "a finite number >= 0");
+}
+
+inline void require_between(const char *name, double value, double low, double high) {
+    if (!(value >= low && value <= high)) // written so that NaN fails
+        throw make_error(GP_E_ARGUMENT, "%s = %g: expected a number from %g to %g", name, value, low, high);
+}
+
+inline void require_choice(const char *name, int64_t value, int64_t count) {
+    if (value < 0 || value >= count)
+        throw make_error(GP_E_ARGUMENT, "%s = %lld: expected a whole number from 0 to %lld", name,
+                         static_cast<long long>(value), static_cast<long long>(count - 1));
+}
+
+inline void require_pointer(const char *name, const void *pointer) {
+    if (!pointer)
+        throw make_error(GP_E_ARGUMENT, "%s = NULL: expected a pointer", name);
+}
+
+[[noreturn]] inline void unsupported(const char *option, const char *what) {
+    throw make_error(GP_E_UNSUPPORTED, "%s: %s is not in this version", option, what);
+}
+
+} // namespace gp

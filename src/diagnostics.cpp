@@ -1,0 +1,112 @@
+#include "diagnostics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+
+namespace gp {
+
+namespace {
+
+struct Energies {
+    double kinetic = 0, potential = 0, elastic = 0;
+    double sum() const { return kinetic + potential + elastic; }
+};
+
+Energies measure_energies(const World &world) {
+    const Particles &p = world.particles;
+    const Vector &g = world.constants.gravity;
+    const double c2 = world.constants.sound_speed * world.constants.sound_speed;
+    Energies e;
+    for (int64_t i = 0; i < p.count; ++i) {
+        const MaterialConstants &m = world.material_of(i);
+        const double mass = m.density * p.volume;
+        e.kinetic += 0.5 * mass * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
+        e.potential += mass * (-g.x() * p.x[i] - g.y() * p.y[i] - g.norm() * world.ledger.reference_height);
+        // Integral of p d rho / rho from rho0 on, and s:s / 4G.
+        const double compression = p.density[i] / m.density - 1;
+        if (compression > 0)
+            e.elastic += p.volume * m.density * c2 * (compression - std::log1p(compression));
+        e.elastic += p.volume * (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+    }
+    return e;
+}
+
+// At rest: gp_state.at_rest in gp.h defines it with these numbers.
+constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_acceleration = 0.05;
+
+bool is_at_rest(const World &world, const Energies &e) {
+    const double scale = std::max(world.ledger.initial, world.ledger.largest_kinetic);
+    const Constants &c = world.constants;
+    if (world.clock.step == 0)
+        return e.kinetic == 0 && c.gravity.norm() == 0;
+    return e.kinetic <= rest_kinetic * scale && world.plastic_power * c.time_scale <= rest_plastic * scale &&
+           world.rms_acceleration <= rest_acceleration * c.gravity.norm();
+}
+
+} // namespace
+
+void open_ledger(World &world) {
+    const Particles &p = world.particles;
+    const Vector &g = world.constants.gravity;
+    if (p.count > 0 && g.norm() > 0) {
+        const Vector up = -g.normalized();
+        double lowest = INFINITY;
+        for (int64_t i = 0; i < p.count; ++i)
+            lowest = std::min(lowest, up.dot(Vector(p.x[i], p.y[i])));
+        world.ledger.reference_height = lowest - 0.5 * world.constants.spacing;
+    }
+    const Energies e = measure_energies(world);
+    world.ledger.initial = e.sum();
+    world.ledger.largest_kinetic = e.kinetic;
+}
+
+gp_state measure_state(const World &world) {
+    const Particles &p = world.particles;
+    gp_state s{};
+    s.struct_size = sizeof s;
+    s.time = world.clock.time;
+    s.step = world.clock.step;
+    s.dt = world.clock.step > 0 ? world.clock.dt : 0.0;
+    s.n_particles = p.count;
+    s.n_awake = p.count;
+
+    const Energies e = measure_energies(world);
+    s.kinetic = e.kinetic;
+    s.potential = e.potential;
+    s.elastic = e.elastic;
+    s.dissipated = world.ledger.dissipated;
+    s.plate_work = world.ledger.plate_work;
+    s.energy_error = world.ledger.initial - (e.sum() + s.dissipated + s.plate_work);
+    s.penalty_dissipated = world.ledger.penalty;
+    s.wall_dissipated = world.ledger.walls;
+    s.diffusion_dissipated = world.ledger.diffusion;
+    s.bulk_dissipated = world.ledger.bulk;
+    s.collision_dissipated = world.ledger.collisions;
+
+    double speed2 = 0;
+    for (int64_t i = 0; i < p.count; ++i) {
+        const double mass = world.material_of(i).density * p.volume;
+        const double own2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i];
+        s.momentum_x += mass * p.vx[i];
+        s.momentum_y += mass * p.vy[i];
+        speed2 += own2;
+        s.max_speed = std::max(s.max_speed, own2);
+        s.max_pressure = std::max(s.max_pressure, p.pressure[i]);
+    }
+    s.max_speed = std::sqrt(s.max_speed);
+    s.rms_speed = p.count > 0 ? std::sqrt(speed2 / static_cast<double>(p.count)) : 0.0;
+
+    const Surface surface(world);
+    if (!surface.empty()) {
+        s.x_left = surface.left();
+        s.x_right = surface.right();
+        surface.peak(s.peak_x, s.peak_height);
+    }
+    s.at_rest = is_at_rest(world, e) ? 1 : 0;
+    s.collisions = world.collisions;
+    s.sound_speed = world.constants.sound_speed;
+    return s;
+}
+
+} // namespace gp

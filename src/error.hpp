@@ -1,0 +1,30 @@
+// Errors inside the library are exceptions of this type; api.cpp turns them into a status and a thread-local text.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "granperi/gp.h"
+
+namespace gp {
+
+class Error : public std::runtime_error {
+public:
+    Error(gp_status status, const std::string &text) : std::runtime_error(text), status_(status) {}
+    gp_status status() const noexcept { return status_; }
+
+private:
+    gp_status status_;
+};
+
+// printf-style construction, so that every message can carry the argument's value.
+[[gnu::format(printf, 2, 3)]] Error make_error(gp_status status, const char *format, ...);
+[[gnu::format(printf, 1, 2)]] std::string format_text(const char *format, ...);
+
+// The text of this thread's last error, for gp_last_error. Never allocates: a longer text is cut.
+void set_last_error(const char *text) noexcept;
+const char *last_error() noexcept;
+
+const char *status_text(gp_status status) noexcept;
+
+} // namespace gp

@@ -1,0 +1,57 @@
+// Plane geometry of plates: a directed segment whose wetted side is on the right of the way from end 0 to end 1.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace gp {
+
+using Vector = Eigen::Vector2d;
+using Tensor = Eigen::Matrix2d;
+
+struct Segment {
+    Vector origin;  // end 0
+    Vector tangent; // unit vector towards end 1
+    Vector normal;  // unit vector into the material: the tangent turned clockwise
+    double length;
+
+    Segment(double x0, double y0, double x1, double y1) : origin(x0, y0) {
+        const Vector way(x1 - x0, y1 - y0);
+        length = way.norm();
+        tangent = way / length;
+        normal = Vector(tangent.y(), -tangent.x());
+    }
+
+    double along(const Vector &point) const { return tangent.dot(point - origin); }
+    double distance(const Vector &point) const { return normal.dot(point - origin); }
+
+    // Is `along` on the segment? Half open, so that of two plates that meet end to end exactly one owns the corner.
+    bool covers(double s, double tolerance) const { return s >= -tolerance && s < length - tolerance; }
+
+    Segment moved(const Vector &by) const {
+        Segment other = *this;
+        other.origin += by;
+        return other;
+    }
+
+    // Distance of a point from the segment.
+    double nearest(const Vector &point) const {
+        const double s = along(point);
+        const double beyond = s < 0 ? -s : (s > length ? s - length : 0.0);
+        return std::hypot(beyond, distance(point));
+    }
+};
+
+// Where the way from a point on the wetted side to one on the body side passes the segment's line, as a fraction of the
+// way in [0, 1); negative if it does not pass through the segment in that sense.
+inline double crossing(const Segment &segment, const Vector &from, const Vector &to, double tolerance) {
+    const double d_from = segment.distance(from), d_to = segment.distance(to);
+    if (d_from <= 0 || d_to > 0)
+        return -1.0;
+    const double fraction = d_from / (d_from - d_to);
+    const double s_from = segment.along(from);
+    const double s = s_from + fraction * (segment.along(to) - s_from);
+    return segment.covers(s, tolerance) ? fraction : -1.0;
+}
+
+} // namespace gp

@@ -1,0 +1,398 @@
+#include "io/frame_file.hpp"
+
+#include <filesystem>
+
+#include "error.hpp"
+#include "io/frame_store.hpp"
+#include "io/hdf5_writer.hpp"
+#include "io/xdmf_file.hpp"
+
+namespace gp::io {
+
+namespace {
+
+// Views per group. A small group's table of names never has to move, which keeps every change of it a single write.
+constexpr int64_t views_per_group = 256;
+constexpr int64_t groups_expected = 512;
+
+struct Element {
+    std::string name, unit;
+    int components;
+    bool constant, integer;
+    Id value; // of a time-dependent element
+
+    std::string path() const { return "/particles/all/" + name; }
+};
+
+} // namespace
+
+struct FrameFile::Impl : Hdf5Writer {
+    std::string side_path;
+    int64_t count = 0, frames = 0;
+    int compression = 0;
+    bool single = false, is_open = false; // open: the files on the disk are ours
+    std::vector<Element> elements;
+    std::vector<double> packed;
+
+    Store store;
+    Id step, time;
+    XdmfFile side;
+
+    ~Impl() {
+        if (store.fd >= 0)
+            ::close(store.fd);
+    }
+
+    // ----------------------------------------------------------------------------------------- opening and closing
+
+    static int open_file(const std::string &name) {
+        struct stat status;
+        const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (fd < 0)
+            throw io_failure(name, "create the file", errno_text(errno));
+        if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode))
+            return fd;
+        ::close(fd);
+        throw io_failure(name, "create the file", "not a regular file");
+    }
+
+    void open_files() {
+        check_version();
+        const std::filesystem::path name(path);
+        if (!name.has_filename())
+            throw io_failure(path, "create the file", "the path names no file");
+        side_path = std::filesystem::path(name).replace_extension(".xdmf").string();
+        if (side_path == path)
+            throw io_failure(path, "create the file", "the extension .xdmf is for the file beside it");
+        store.fd = open_file(path);
+        const int side_fd = open_file(side_path);
+        side.start(side_fd, name.filename().string(), count, single);
+        // Not on the HDF5 file itself, because the readers of HDF5 lock that.
+        if (::flock(side_fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            throw io_failure(path, "create the file", "another output is writing to it");
+        if (::ftruncate(store.fd, 0) != 0 || ::ftruncate(side_fd, 0) != 0)
+            throw io_failure(path, "empty the file", errno_text(errno));
+        is_open = true;
+    }
+
+    void commit(const std::string &what) {
+        const bool good = H5Fflush(file, H5F_SCOPE_LOCAL) >= 0;
+        if (good || store.error != 0)
+            if (const int error = store.commit())
+                throw io_failure(path, what, errno_text(error));
+        check(good ? 0 : -1, what);
+    }
+
+    bool close_hdf5() noexcept {
+        for (Element &element : elements)
+            element.value.close();
+        step.close();
+        time.close();
+        return file < 0 || H5Fclose(file.release()) >= 0;
+    }
+
+    // Leaves the file on the disk as it was last committed. HDF5 itself closes as usual, into memory: see Store.
+    void abandon() noexcept {
+        if (!is_open)
+            return;
+        store.error = store.error != 0 ? store.error : ECANCELED;
+        close_hdf5();
+        store.rollback();
+    }
+
+    void reopen() {
+        const auto dataset = [this](const std::string &name) {
+            return own(H5Dopen2(file, name.c_str(), H5P_DEFAULT), "open " + name + " again");
+        };
+        file = own(H5Fopen(path.c_str(), H5F_ACC_RDWR, access), "open the file again");
+        for (Element &element : elements)
+            if (!element.constant)
+                element.value = dataset(element.path() + "/value");
+        step = dataset("/particles/all/position/step");
+        time = dataset("/particles/all/position/time");
+    }
+
+    void close() {
+        if (!std::exchange(is_open, false))
+            return;
+        const bool good = close_hdf5();
+        int error = good ? store.commit() : EIO;
+        if (error != 0)
+            store.rollback();
+        if (::close(std::exchange(store.fd, -1)) != 0 && error == 0)
+            error = errno;
+        int side_error = side.write();
+        if (const int close_error = side.close(); side_error == 0)
+            side_error = close_error;
+        if (error != 0)
+            throw io_failure(path, "close the file", good ? errno_text(error) : hdf5_text());
+        if (side_error != 0)
+            throw io_failure(side_path, "close the file", errno_text(side_error));
+    }
+
+    // ---------------------------------------------------------------------------------------------------- layout
+
+    hid_t type_of(const Element &element) const {
+        return element.integer ? H5T_STD_I64LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+    }
+
+    // The extent of one frame of an element.
+    std::vector<hsize_t> shape_of(const Element &element) const {
+        const hsize_t n = static_cast<hsize_t>(count);
+        return element.components == 1 ? std::vector<hsize_t>{n} : std::vector<hsize_t>{n, 3};
+    }
+
+    void create(const FrameHeader &header, const std::vector<const double *> &constant_values) {
+        driver = own(H5FDregister(&store_driver()), "register the file driver");
+        access = own(H5Pcreate(H5P_FILE_ACCESS), "describe the file");
+        Store *const target = &store;
+        check(H5Pset_driver(access, driver, &target), "set the file driver");
+        check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "describe the file");
+        check(H5Pset_cache(access, 0, 0, 0, 0.0), "describe the file"); // every chunk is written once and whole
+        Id how = own(H5Pcreate(H5P_FILE_CREATE), "describe the file");
+        // Freed space is never used again: an earlier state of the file may still refer to it.
+        check(H5Pset_file_space_strategy(how, H5F_FSPACE_STRATEGY_NONE, false, 1), "describe the file");
+        file = own(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, how, access), "create the file");
+
+        const int64_t version[4] = {1, 1, 1, 0};
+        Id h5md = make_group("/h5md", 4), author = make_group("/h5md/author", 0);
+        Id creator = make_group("/h5md/creator", 0), modules = make_group("/h5md/modules", 2);
+        Id units = make_group("/h5md/modules/units", 0), parameters = make_group("/parameters", 0);
+        set_integers(h5md, "version", {2}, version);
+        set_text(author, "name", "unknown");
+        set_text(creator, "name", "granperi");
+        set_text(creator, "version", header.creator_version != nullptr ? header.creator_version : "");
+        set_integers(units, "version", {2}, version + 2);
+        set_text(units, "system", "SI");
+
+        set_integers(parameters, "particles", {}, &count);
+        set_numbers(parameters, "spacing", {}, &header.spacing);
+        set_numbers(parameters, "gravity", {2}, header.gravity);
+        for (const auto &[name, value] : header.parameters) {
+            if (check(H5Aexists(parameters, name.c_str()), "write the parameters") > 0)
+                check(H5Adelete(parameters, name.c_str()), "write the parameters");
+            set_numbers(parameters, name.c_str(), {}, &value);
+        }
+
+        Id particles = make_group("/particles", 1), all = make_group("/particles/all", 20);
+        make_box(header);
+        auto values = constant_values.begin();
+        for (Element &element : elements) {
+            const std::string name = element.path() + (element.constant ? "" : "/value");
+            Id dataset =
+                make_dataset(name, type_of(element), shape_of(element), !element.constant, compression, element.unit);
+            if (!element.constant)
+                element.value = std::move(dataset);
+            else
+                write_constant(element, dataset, pack(element, values));
+        }
+        // step before time, which a reader goes by: of two datasets the lower one in the file is written first.
+        const std::string home = "/particles/all/position/";
+        step = make_dataset(home + "step", H5T_STD_I64LE, {}, true, 0, "");
+        time = make_dataset(home + "time", H5T_IEEE_F64LE, {}, true, 0, "s");
+        for (const Element &element : elements)
+            for (const char *name : {"step", "time"})
+                if (!element.constant && element.name != "position")
+                    check(H5Lcreate_hard(file, (home + name).c_str(), file, (element.path() + "/" + name).c_str(),
+                                         H5P_DEFAULT, H5P_DEFAULT),
+                          "link " + element.path() + "/" + name);
+        make_group("/frames", groups_expected);
+        commit("create the file");
+    }
+
+    void write_constant(const Element &element, hid_t dataset, const double *data) {
+        if (count == 0)
+            return;
+        check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "write " + element.name);
+        int64_t k = 0;
+        while (element.name == "id" && element.integer && element.components == 1 && k < count &&
+               data[k] == static_cast<double>(k))
+            ++k;
+        if (k == count)
+            side.set_cells(element.path());
+    }
+
+    void make_box(const FrameHeader &header) const {
+        const int64_t dimension = 3;
+        char boundary[3][9] = {"none", "none", "none"};
+        Id box = make_group("/particles/all/box", 1), type = own(H5Tcopy(H5T_C_S1), "describe a text");
+        if (header.periodic_x) {
+            double edges[3] = {0, 0, 0}; // H5MD: placeholders where the boundary is none
+            std::snprintf(boundary[0], sizeof boundary[0], "periodic");
+            for (const auto &[name, value] : header.parameters)
+                edges[0] += name == "periodic_x_max" ? value : name == "periodic_x_min" ? -value : 0;
+            if (!(edges[0] > 0))
+                throw io_failure(path, "write the box", "periodic_x_max has to be larger than periodic_x_min");
+            Id dataset = make_dataset("/particles/all/box/edges", H5T_IEEE_F64LE, {3}, false, 0, "m");
+            check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, edges), "write the box");
+        }
+        set_integers(box, "dimension", {}, &dimension);
+        check(H5Tset_size(type, sizeof boundary[0]), "describe a text");
+        set_attribute(box, "boundary", type, type, {3}, boundary);
+    }
+
+    // --------------------------------------------------------------------------------------------------- frames
+
+    // One frame's values of an element as they are stored; `next` moves past its components.
+    const double *pack(const Element &element, std::vector<const double *>::const_iterator &next) {
+        if (element.components == 1)
+            return *next++;
+        const double *const x = *next++, *const y = *next++;
+        packed.resize(static_cast<size_t>(count) * 3);
+        for (size_t k = 0; k < static_cast<size_t>(count); ++k) {
+            packed[3 * k] = x[k];
+            packed[3 * k + 1] = y[k];
+            packed[3 * k + 2] = 0;
+        }
+        return packed.data();
+    }
+
+    void append(hid_t dataset, std::vector<hsize_t> shape, hid_t type, const void *data,
+                const std::string &what) const {
+        std::vector<hsize_t> start(shape.size() + 1, 0), extent = shape;
+        start[0] = static_cast<hsize_t>(frames);
+        shape.insert(shape.begin(), 1);
+        extent.insert(extent.begin(), start[0] + 1);
+        check(H5Dset_extent(dataset, extent.data()), what);
+        if (extent.size() > 1 && count == 0)
+            return;
+        Id place = own(H5Dget_space(dataset), what), memory = space(shape, shape);
+        check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr), what);
+        check(H5Dwrite(dataset, type, memory, place, H5P_DEFAULT, data), what);
+    }
+
+    // An array without data of its own that shows one frame of an element.
+    void make_view(const std::string &name, const Element &element) const {
+        const std::string what = "create " + name;
+        const std::vector<hsize_t> shape = shape_of(element);
+        std::vector<hsize_t> start(shape.size() + 1, 0), slab = shape, extent = shape;
+        start[0] = static_cast<hsize_t>(frames);
+        slab.insert(slab.begin(), 1);
+        extent.insert(extent.begin(), start[0] + 1);
+        Id how = own(H5Pcreate(H5P_DATASET_CREATE), what), source = space(extent, extent), view = space(shape, shape);
+        check(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, slab.data(), nullptr), what);
+        check(H5Pset_obj_track_times(how, false), what);
+        if (count > 0)
+            check(H5Pset_virtual(how, view, ".", (element.path() + "/value").c_str(), source), what);
+        own(H5Dcreate2(file, name.c_str(), type_of(element), view, H5P_DEFAULT, how, H5P_DEFAULT), what);
+    }
+
+    std::string outer_group() const {
+        return format_text("/frames/%06lld", static_cast<long long>(frames - frames % views_per_group));
+    }
+
+    std::string frame_group() const { return outer_group() + format_text("/%06lld", static_cast<long long>(frames)); }
+
+    void make_views() const {
+        const std::string outer = outer_group(), inner = frame_group();
+        if (check(H5Lexists(file, outer.c_str(), H5P_DEFAULT), "create " + outer) == 0)
+            make_group(outer, views_per_group);
+        if (check(H5Lexists(file, inner.c_str(), H5P_DEFAULT), "create " + inner) > 0)
+            return; // of an attempt that came so far and then failed
+        make_group(inner, static_cast<int64_t>(elements.size()));
+        for (const Element &element : elements)
+            if (!element.constant)
+                make_view(inner + "/" + element.name, element);
+    }
+
+    void write(int64_t step_number, double seconds, const std::vector<const double *> &components) {
+        auto next = components.begin();
+        for (const Element &element : elements)
+            if (!element.constant)
+                append(element.value, shape_of(element), H5T_NATIVE_DOUBLE, pack(element, next),
+                       "write " + element.name);
+        make_views();
+        commit("write a frame");
+        // Only now: a reader that goes by the number of times finds all else.
+        append(step, {}, H5T_NATIVE_INT64, &step_number, "write the step");
+        append(time, {}, H5T_NATIVE_DOUBLE, &seconds, "write the time");
+        commit("write a frame");
+    }
+
+    void list_frame(double seconds) {
+        const std::string group = frame_group() + "/";
+        side.begin_frame(frames, seconds, group + "position");
+        for (const Element &element : elements)
+            if (element.name != "position")
+                side.add_field(element.name, element.components, element.integer,
+                               element.constant ? element.path() : group + element.name);
+        side.end_frame();
+    }
+
+    void write_side() {
+        if (const int error = side.write())
+            throw io_failure(side_path, "write the file", errno_text(error));
+    }
+
+    // How many pointers to values the constant fields have, or the others.
+    static size_t pointers(const std::vector<Element> &elements, bool constant) {
+        size_t n = 0;
+        for (const Element &element : elements)
+            n += element.constant == constant ? static_cast<size_t>(element.components) : 0;
+        return n;
+    }
+};
+
+FrameFile::FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
+                     const std::vector<const double *> &constant_values, int compression, bool single_precision)
+    : impl_(new Impl) {
+    Session session;
+    impl_->path = path;
+    impl_->count = header.count;
+    impl_->compression = compression;
+    impl_->single = single_precision;
+    bool has_position = false;
+    for (const FrameField &f : fields) {
+        impl_->elements.push_back({f.name, f.unit != nullptr ? f.unit : "", f.components, f.constant, f.integer, Id()});
+        has_position |= impl_->elements.back().name == "position" && f.components == 2 && !f.constant;
+    }
+    if (!has_position || Impl::pointers(impl_->elements, true) != constant_values.size())
+        throw io_failure(path, "create the file", "the fields lack a position, or a constant field its values");
+    try {
+        impl_->open_files();
+        impl_->create(header, constant_values);
+        impl_->write_side();
+    } catch (...) {
+        impl_->abandon();
+        impl_.reset();
+        throw;
+    }
+}
+
+FrameFile::~FrameFile() {
+    try {
+        close();
+    } catch (const std::exception &) {
+    }
+    Session session;
+    impl_.reset();
+}
+
+void FrameFile::write(int64_t step, double time, const std::vector<const double *> &components) {
+    Session session;
+    Impl &impl = *impl_;
+    if (!impl.is_open || Impl::pointers(impl.elements, false) != components.size())
+        throw io_failure(impl.path, "write a frame", impl.is_open ? "wrong number of components" : "it is closed");
+    try {
+        if (impl.file < 0)
+            impl.reopen();
+        impl.write(step, time, components);
+    } catch (...) {
+        impl.abandon();
+        throw;
+    }
+    impl.list_frame(time);
+    ++impl.frames;
+    impl.write_side();
+}
+
+void FrameFile::close() {
+    Session session;
+    impl_->close();
+}
+
+int64_t FrameFile::frames() const {
+    return impl_->frames;
+}
+
+} // namespace gp::io

@@ -1,0 +1,66 @@
+// Result files: an HDF5 file in the layout of H5MD 1.1 and, beside it, an XDMF file through which ParaView reads it.
+//
+//   /h5md                                   who wrote it; the units module
+//   /particles/all/box                      H5MD asks for it
+//   /particles/all/position/{step,time,value[T][N][3]}, velocity likewise; scalars have value[T][N]
+//                                           step and time are the same two datasets in every element
+//   /particles/all/<constant field>[N]
+//   /parameters                             attributes
+//   /frames/<first of its 256>/<frame>/<field>   views of one frame each, [N] or [N][3], without data of their own:
+//                                           ParaView reads them where H5MD has one dataset for all frames
+//
+// A reader of a file that is still being written, or whose writer was killed, takes the first len(time) frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gp::io {
+
+struct FrameField {
+    const char *name;
+    int components;   // 1, or 2 for a vector, which is stored with z = 0
+    bool constant;    // written once and not per frame
+    bool integer;     // stored as 64-bit integers
+    const char *unit; // as H5MD's units module writes it, e.g. "m s-1"; NULL or "": none
+};
+
+struct FrameHeader {
+    int64_t count; // particles
+    double spacing;
+    double gravity[2];
+    bool periodic_x; // needs the parameters periodic_x_min and periodic_x_max
+    const char *creator_version;
+    std::vector<std::pair<std::string, double>> parameters;
+};
+
+// Every call may throw gp::Error with GP_E_IO. Not for use by two threads at once; two files in two threads are fine.
+class FrameFile {
+public:
+    // Replaces an existing file. (ParaView's reader takes no file whose name contains a colon.) The fields must include
+    // a "position" of two components. constant_values: one pointer per component of each constant field, in order.
+    // compression: deflate level, 0 for none.
+    FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
+              const std::vector<const double *> &constant_values, int compression, bool single_precision);
+    FrameFile(const FrameFile &) = delete;
+    FrameFile &operator=(const FrameFile &) = delete;
+    ~FrameFile(); // closes; an error then is lost
+
+    // components: one pointer per component of each field that is not constant, in order, to `count` values in the
+    // order of id. After an error the frame is lost, the earlier ones are not, and the next call tries again.
+    void write(int64_t step, double time, const std::vector<const double *> &components);
+
+    // The file is closed also when this throws. A second call does nothing.
+    void close();
+
+    int64_t frames() const; // complete ones in the HDF5 file
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gp::io

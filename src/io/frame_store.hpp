@@ -1,0 +1,192 @@
+// How the bytes of a result file reach the disk. Only frame_file.cpp includes this.
+#pragma once
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <iterator>
+#include <vector>
+
+#include <fcntl.h>
+#include <hdf5.h>
+#if H5_VERSION_GE(1, 13, 0)
+#include <H5FDdevelop.h>
+#endif
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace gp::io {
+
+inline bool write_all(int fd, const void *source, size_t size, uint64_t offset) noexcept {
+    const char *bytes = static_cast<const char *>(source);
+    while (size > 0) {
+        const ssize_t n = ::pwrite(fd, bytes, size, static_cast<off_t>(offset));
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0) {
+            errno = n == 0 ? EIO : errno;
+            return false;
+        }
+        bytes += n;
+        size -= static_cast<size_t>(n);
+        offset += static_cast<uint64_t>(n);
+    }
+    return true;
+}
+
+// The bytes of the HDF5 file. HDF5's own drivers write in any order, so that a program killed between two writes can
+// leave a file without a readable frame, and after a failed write HDF5 can neither close the file nor end quietly.
+// Here, what falls on new space goes to the disk at once, because nothing refers to it yet; what changes the committed
+// part waits for commit(), which writes it in an order in which the file is valid after each write. HDF5 never sees a
+// write fail: after a failure everything stays in memory, and commit() tells.
+struct Store {
+    struct Change {
+        int rank;
+        haddr_t address;
+        std::vector<unsigned char> bytes;
+    };
+
+    int fd = -1;
+    int error = 0;         // errno of the first failure since the last rollback
+    haddr_t committed = 0; // end of the committed part
+    haddr_t eoa = 0;       // end of what HDF5 has allocated
+    haddr_t end = 0;       // end of what HDF5 has written
+    std::vector<Change> changes;
+
+    // The place of a change in commit(). First the superblock, which makes new space legal to refer to; then what only
+    // adds: names, values, and the global heap, which HDF5 hands over as values; trees from the root down, so that a
+    // node that was split is never looked up in the half that it no longer has; and last the sizes of the datasets.
+    static int rank(H5FD_mem_t type, const unsigned char *bytes, size_t size) {
+        switch (type) {
+        case H5FD_MEM_SUPER: return 0;
+        case H5FD_MEM_LHEAP: return 1;
+        case H5FD_MEM_DRAW:
+        case H5FD_MEM_GHEAP: return 2;
+        case H5FD_MEM_BTREE: return size > 5 && std::memcmp(bytes, "TREE", 4) == 0 ? 300 - bytes[5] : 301;
+        default: return 302;
+        }
+    }
+
+    void write(H5FD_mem_t type, haddr_t address, size_t size, const void *source) noexcept {
+        end = std::max(end, address + size);
+        if (error == 0 && address >= committed) {
+            if (write_all(fd, source, size, address))
+                return;
+            error = errno;
+        }
+        try {
+            const unsigned char *bytes = static_cast<const unsigned char *>(source);
+            const auto same = [=](const Change &c) { return c.address == address && c.bytes.size() == size; };
+            changes.erase(std::remove_if(changes.begin(), changes.end(), same), changes.end());
+            changes.push_back({rank(type, bytes, size), address, std::vector<unsigned char>(bytes, bytes + size)});
+        } catch (const std::exception &) {
+            error = ENOMEM;
+        }
+    }
+
+    bool read(haddr_t address, size_t size, void *destination) const noexcept {
+        char *bytes = static_cast<char *>(destination);
+        for (size_t done = 0; done < size;) {
+            const ssize_t n = ::pread(fd, bytes + done, size - done, static_cast<off_t>(address + done));
+            if (n < 0 && errno != EINTR)
+                return false;
+            if (n == 0)
+                std::memset(bytes + done, 0, size - done);
+            done = n == 0 ? size : done + static_cast<size_t>(std::max<ssize_t>(n, 0));
+        }
+        for (const Change &change : changes) {
+            const haddr_t first = std::max(address, change.address);
+            const haddr_t last = std::min(address + size, change.address + change.bytes.size());
+            if (first < last)
+                std::memcpy(bytes + (first - address), &change.bytes[first - change.address], last - first);
+        }
+        return true;
+    }
+
+    // Makes all that was written part of the file. Returns 0 or an errno.
+    int commit() {
+        struct stat status;
+        if (error == 0 && (::fstat(fd, &status) != 0 || (static_cast<haddr_t>(status.st_size) < eoa &&
+                                                         ::ftruncate(fd, static_cast<off_t>(eoa)) != 0)))
+            error = errno;
+        if (error != 0)
+            return error;
+        committed = std::max(committed, eoa); // from here on the file may refer to it
+        std::stable_sort(changes.begin(), changes.end(),
+                         [](const Change &a, const Change &b) { return a.rank < b.rank; });
+        for (const Change &change : changes)
+            if (error == 0 && !write_all(fd, change.bytes.data(), change.bytes.size(), change.address))
+                error = errno;
+        if (error == 0)
+            changes.clear();
+        return error;
+    }
+
+    void rollback() noexcept {
+        changes.clear();
+        error = 0;
+        eoa = committed;
+        if (fd >= 0 && ::ftruncate(fd, static_cast<off_t>(committed)) != 0)
+            return; // longer than it needs to be, but valid
+    }
+};
+
+struct StoreFile {
+    H5FD_t base; // HDF5's part, has to be first
+    Store *store;
+};
+
+inline Store &store_of(const H5FD_t *file) {
+    return *reinterpret_cast<const StoreFile *>(file)->store;
+}
+
+inline H5FD_t *open_store(const char *, unsigned, hid_t access, haddr_t) {
+    StoreFile *file = static_cast<StoreFile *>(std::calloc(1, sizeof(StoreFile)));
+    struct stat status;
+    if (file == nullptr)
+        return nullptr;
+    file->store = *static_cast<Store *const *>(H5Pget_driver_info(access));
+    file->store->eoa = 0;
+    file->store->end = ::fstat(file->store->fd, &status) == 0 ? static_cast<haddr_t>(status.st_size) : 0;
+    return &file->base;
+}
+
+// A driver of HDF5 that hands everything to a Store. Without a lock: readers may look at the file while it grows.
+inline const H5FD_class_t &store_driver() {
+    static const H5FD_class_t driver = [] {
+        H5FD_class_t c{};
+#if H5_VERSION_GE(1, 13, 0)
+        c.version = H5FD_CLASS_VERSION;
+        c.value = 1024; // any number that HDF5 leaves to applications
+#endif
+        c.name = "granperi";
+        c.maxaddr = (haddr_t{1} << 62) - 1;
+        c.fc_degree = H5F_CLOSE_STRONG;
+        c.fapl_size = sizeof(Store *);
+        c.open = open_store;
+        c.close = [](H5FD_t *file) -> herr_t { return std::free(file), 0; };
+        c.query = [](const H5FD_t *, unsigned long *flags) -> herr_t {
+            if (flags != nullptr)
+                *flags = H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+            return 0;
+        };
+        c.get_eoa = [](const H5FD_t *file, H5FD_mem_t) { return store_of(file).eoa; };
+        c.set_eoa = [](H5FD_t *file, H5FD_mem_t, haddr_t eoa) -> herr_t { return store_of(file).eoa = eoa, 0; };
+        c.get_eof = [](const H5FD_t *file, H5FD_mem_t) { return store_of(file).end; };
+        c.read = [](H5FD_t *file, H5FD_mem_t, hid_t, haddr_t address, size_t size, void *bytes) -> herr_t {
+            return store_of(file).read(address, size, bytes) ? 0 : -1;
+        };
+        c.write = [](H5FD_t *file, H5FD_mem_t type, hid_t, haddr_t address, size_t size, const void *bytes) -> herr_t {
+            return store_of(file).write(type, address, size, bytes), 0;
+        };
+        c.truncate = [](H5FD_t *file, hid_t, hbool_t) -> herr_t { return store_of(file).end = store_of(file).eoa, 0; };
+        std::fill(std::begin(c.fl_map), std::end(c.fl_map), H5FD_MEM_DEFAULT);
+        return c;
+    }();
+    return driver;
+}
+
+} // namespace gp::io

@@ -1,0 +1,129 @@
+#include "neighbors.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "parallel.hpp"
+
+namespace gp {
+
+void CellGrid::sort(Particles &particles, double cell_size, int threads) {
+    const int64_t n = particles.count;
+    count_ = n;
+    if (n == 0)
+        return;
+    const auto [x_low, x_high] = std::minmax_element(particles.x.begin(), particles.x.end());
+    const auto [y_low, y_high] = std::minmax_element(particles.y.begin(), particles.y.end());
+    box_ = {*x_low, *x_high, *y_low, *y_high};
+    // A box too wide to number its cells gets wider cells: still right, only slower.
+    const double widest = std::max(box_.x_max - box_.x_min, box_.y_max - box_.y_min);
+    inverse_size_ = 1.0 / std::max(cell_size, widest / 1e9);
+    columns_ = column_of(box_.x_max) + 1;
+    rows_ = row_of(box_.y_max) + 1;
+
+    unsorted_.resize(n);
+    order_.resize(n);
+    for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t i = begin; i < end; ++i)
+            unsorted_[i] = row_of(particles.y[i]) * columns_ + column_of(particles.x[i]);
+    });
+
+    const bool dense = static_cast<double>(columns_) * static_cast<double>(rows_) <= 4.0 * static_cast<double>(n) + 4096.0;
+    if (dense) {
+        key_.clear();
+        start_.assign(columns_ * rows_ + 1, 0);
+        for (int64_t i = 0; i < n; ++i)
+            ++start_[unsorted_[i] + 1];
+        std::partial_sum(start_.begin(), start_.end(), start_.begin());
+        for (int64_t i = 0; i < n; ++i)
+            order_[start_[unsorted_[i]]++] = static_cast<int32_t>(i);
+        // Filling moved each cell's start to its end, which is the next cell's start.
+        std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
+        start_[0] = 0;
+    } else {
+        start_.clear();
+        std::iota(order_.begin(), order_.end(), 0);
+        std::sort(order_.begin(), order_.end(), [&](int32_t a, int32_t b) {
+            return unsorted_[a] != unsorted_[b] ? unsorted_[a] < unsorted_[b] : a < b;
+        });
+        key_.resize(n);
+        for (int64_t i = 0; i < n; ++i)
+            key_[i] = unsorted_[order_[i]];
+    }
+    particles.reorder(order_, threads);
+}
+
+int64_t CellGrid::run_begin(int64_t cell) const {
+    if (!start_.empty())
+        return start_[cell];
+    return std::lower_bound(key_.begin(), key_.end(), cell) - key_.begin();
+}
+
+int64_t CellGrid::bytes() const {
+    return static_cast<int64_t>((start_.capacity() + order_.capacity()) * sizeof(int32_t) +
+                                (key_.capacity() + unsorted_.capacity()) * sizeof(int64_t));
+}
+
+namespace {
+
+bool separated(const std::vector<Segment> &barriers, const Vector &a, const Vector &b, double tolerance) {
+    for (const Segment &barrier : barriers)
+        if (crossing(barrier, a, b, tolerance) >= 0 || crossing(barrier, b, a, tolerance) >= 0)
+            return true;
+    return false;
+}
+
+} // namespace
+
+void find_neighbors(const Particles &particles, const CellGrid &grid, double radius, double close_radius,
+                    const std::vector<Segment> &barriers, double tolerance, int threads, NeighborList &list) {
+    const int64_t n = particles.count;
+    const double *x = particles.x.data(), *y = particles.y.data();
+    const double radius2 = radius * radius, close2 = close_radius * close_radius;
+
+    // Calls found(j, r^2) for the neighbours of i in sorted order.
+    const auto visit = [&](int64_t i, const auto &found) {
+        grid.for_each_run(x[i], y[i], radius, [&](int64_t begin, int64_t end) {
+            for (int64_t j = begin; j < end; ++j) {
+                const double dx = x[j] - x[i], dy = y[j] - y[i];
+                const double r2 = dx * dx + dy * dy;
+                if (r2 < radius2 && j != i &&
+                    (barriers.empty() || !separated(barriers, {x[i], y[i]}, {x[j], y[j]}, tolerance)))
+                    found(j, r2);
+            }
+        });
+    };
+
+    list.start.resize(n + 1);
+    list.close_count.resize(n);
+    list.start[0] = 0;
+    for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t i = begin; i < end; ++i) {
+            int64_t all = 0;
+            int32_t close = 0;
+            visit(i, [&](int64_t, double r2) {
+                ++all;
+                close += r2 < close2;
+            });
+            list.start[i + 1] = all;
+            list.close_count[i] = close;
+        }
+    });
+    std::partial_sum(list.start.begin(), list.start.end(), list.start.begin());
+    if (static_cast<int64_t>(list.index.size()) < list.start[n])
+        list.index.resize(list.start[n] + list.start[n] / 8); // room, so that later lists of about this size fit
+    for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t i = begin; i < end; ++i) {
+            int32_t *close = list.index.data() + list.start[i];
+            int32_t *others = close + list.close_count[i];
+            visit(i, [&](int64_t j, double r2) {
+                if (r2 < close2)
+                    *close++ = static_cast<int32_t>(j);
+                else
+                    *others++ = static_cast<int32_t>(j);
+            });
+        }
+    });
+}
+
+} // namespace gp

@@ -1,0 +1,84 @@
+// Cell sort and neighbour lists with a skin.
+//
+// Particles are sorted by cell, row by row, so that the candidates of one row of cells are one run of memory. Each
+// particle's list begins with its close neighbours (those that may collide), then the others, each in sorted order.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "geometry.hpp"
+#include "particles.hpp"
+
+namespace gp {
+
+struct Box {
+    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+    // Distance to another box; 0 where they overlap.
+    double gap(const Box &other) const {
+        const double x = std::max({0.0, x_min - other.x_max, other.x_min - x_max});
+        const double y = std::max({0.0, y_min - other.y_max, other.y_min - y_max});
+        return std::hypot(x, y);
+    }
+};
+
+// Cells over the particles. Where the particles are few for the space they span (fragments far away), a search over the
+// sorted keys replaces the table of cells.
+class CellGrid {
+public:
+    // Sorts the particles (their carried fields are reordered) into cells of the given size. The sort is stable.
+    void sort(Particles &particles, double cell_size, int threads);
+
+    const Box &box() const { return box_; }
+    int64_t bytes() const;
+
+    // Calls body(begin, end) for the run of particles in each row of cells that the square of half width `radius` about
+    // (x, y) touches.
+    template <class Body> void for_each_run(double x, double y, double radius, const Body &body) const {
+        if (count_ == 0)
+            return;
+        const int64_t left = column_of(x - radius), right = column_of(x + radius);
+        const int64_t bottom = row_of(y - radius), top = row_of(y + radius);
+        if (right < 0 || left >= columns_ || top < 0 || bottom >= rows_)
+            return;
+        for (int64_t row = bottom < 0 ? 0 : bottom; row <= (top < rows_ ? top : rows_ - 1); ++row) {
+            const int64_t first = row * columns_ + (left < 0 ? 0 : left);
+            const int64_t last = row * columns_ + (right < columns_ ? right : columns_ - 1);
+            body(run_begin(first), run_begin(last + 1));
+        }
+    }
+
+private:
+    int64_t column_of(double x) const { return static_cast<int64_t>(std::floor((x - box_.x_min) * inverse_size_)); }
+    int64_t row_of(double y) const { return static_cast<int64_t>(std::floor((y - box_.y_min) * inverse_size_)); }
+    int64_t run_begin(int64_t cell) const; // first particle whose cell is not before this one
+
+    Box box_;
+    double inverse_size_ = 0;
+    int64_t columns_ = 0, rows_ = 0, count_ = 0;
+    Field<int32_t> start_;   // table of cells, when it is small enough
+    Field<int64_t> key_;     // cell of each sorted particle, for the search otherwise
+    Field<int32_t> order_;   // sorted position -> old position
+    Field<int64_t> unsorted_;
+};
+
+// Rows of neighbour indices: entries of row i are index[start[i]] .. index[start[i + 1]].
+struct NeighborList {
+    Field<int64_t> start;
+    Field<int32_t> close_count; // how many of the row may collide
+    Field<int32_t> index;
+
+    int64_t bytes() const {
+        return static_cast<int64_t>(start.capacity() * sizeof(int64_t) + close_count.capacity() * sizeof(int32_t) +
+                                    index.capacity() * sizeof(int32_t));
+    }
+};
+
+// Finds, for every particle, the neighbours within `radius`, of which those within `close_radius` come first. Pairs on
+// both sides of one of `barriers` (plates with material behind them) do not see each other.
+void find_neighbors(const Particles &particles, const CellGrid &grid, double radius, double close_radius,
+                    const std::vector<Segment> &barriers, double tolerance, int threads, NeighborList &list);
+
+} // namespace gp

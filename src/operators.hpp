@@ -1,0 +1,86 @@
+// The peridynamic operators on one particle's neighbours: shape tensor, velocity gradient, force.
+//
+// The gradient L_i = sum_j w (u_j - u_i) (x) r_ij K_i^-1 and the force density f_i = sum_j w (A_i + A_j) r_ij with
+// A = sigma K^-1 are adjoint: sum_i u_i . f_i = -sum_i sigma_i : L_i to rounding, for any K^-1 (power identity).
+// K = sum_j w r (x) r has no volume in it: all particles have the same one, and it cancels.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <cstdint>
+
+#include "geometry.hpp"
+#include "kernel.hpp"
+
+namespace gp {
+
+// K and M = sum w (u_j - u_i) (x) r, so that L = M K^-1.
+struct Moments {
+    double kxx = 0, kxy = 0, kyy = 0;
+    double mxx = 0, mxy = 0, myx = 0, myy = 0;
+};
+
+// Adds the neighbours row[0 .. n) with the given positions and velocities. Neighbours past the radius have weight 0.
+GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t n, double xi, double yi, double ui,
+                           double vi, const double *__restrict x, const double *__restrict y,
+                           const double *__restrict vx, const double *__restrict vy, double inverse_radius) {
+    double kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
+#pragma omp simd reduction(+ : kxx, kxy, kyy, mxx, mxy, myx, myy)
+    for (int64_t k = 0; k < n; ++k) {
+        const int32_t j = row[k];
+        const double dx = x[j] - xi, dy = y[j] - yi;
+        const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+        const double wx = w * dx, wy = w * dy;
+        const double du = vx[j] - ui, dv = vy[j] - vi;
+        kxx += wx * dx;
+        kxy += wx * dy;
+        kyy += wy * dy;
+        mxx += du * wx;
+        mxy += du * wy;
+        myx += dv * wx;
+        myy += dv * wy;
+    }
+    sum.kxx += kxx;
+    sum.kxy += kxy;
+    sum.kyy += kyy;
+    sum.mxx += mxx;
+    sum.mxy += mxy;
+    sum.myx += myx;
+    sum.myy += myy;
+}
+
+// Below this share of the full-lattice value an eigenvalue of K no longer describes a neighbourhood: a free corner has
+// 1/4, a straight row has 0 across itself.
+constexpr double deficient_share = 0.05;
+
+// K^-1, with the inverse of an eigenvalue l below the floor f = 0.05 k0 replaced by l / f^2: continuous, and 0 for no, a
+// single or only collinear neighbours in the direction that they do not span.
+inline Tensor deficient_inverse(double kxx, double kxy, double kyy, double lattice_moment) {
+    Tensor k;
+    k << kxx, kxy, kxy, kyy;
+    Eigen::SelfAdjointEigenSolver<Tensor> solver;
+    solver.computeDirect(k);
+    const double floor = deficient_share * lattice_moment;
+    Vector inverse;
+    for (int a = 0; a < 2; ++a) {
+        const double value = solver.eigenvalues()[a] > 0 ? solver.eigenvalues()[a] : 0.0;
+        inverse[a] = value >= floor ? 1.0 / value : value / (floor * floor);
+    }
+    return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+struct SymmetricTensor {
+    double xx, xy, yy;
+};
+
+GP_INLINE SymmetricTensor inverse_shape(const Moments &m, double lattice_moment) {
+    // The smaller eigenvalue is at least det/trace.
+    const double trace = m.kxx + m.kyy, determinant = m.kxx * m.kyy - m.kxy * m.kxy;
+    if (determinant > deficient_share * lattice_moment * trace) {
+        const double scale = 1.0 / determinant;
+        return {m.kyy * scale, -m.kxy * scale, m.kxx * scale};
+    }
+    const Tensor inverse = deficient_inverse(m.kxx, m.kxy, m.kyy, lattice_moment);
+    return {inverse(0, 0), inverse(0, 1), inverse(1, 1)};
+}
+
+} // namespace gp

@@ -1,0 +1,58 @@
+// The only file that knows OpenMP.
+//
+// Work is cut into blocks of a fixed number of items. Each block is done by one thread, sums are kept per block and
+// added in block order, so results do not depend on the number of threads.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#ifdef GP_WITH_OPENMP
+#include <omp.h>
+#endif
+
+// Pair loops are compiled once per instruction set and chosen when the library is loaded. Sanitizers run before the
+// loader has resolved such functions, and clang's OpenMP outlining defeats them, so they are for plain g++ builds.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(GP_NO_MULTIVERSION)
+#define GP_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define GP_MULTIVERSION
+#endif
+#define GP_INLINE inline __attribute__((always_inline))
+
+namespace gp {
+
+constexpr int64_t block_size = 64;
+
+inline int64_t block_count(int64_t n) { return (n + block_size - 1) / block_size; }
+
+// Threads that a simulation uses when its config says 0.
+inline int default_threads() {
+#ifdef GP_WITH_OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
+
+// Calls body(block, begin, end) for the blocks of n items. body must not throw: an exception cannot leave a parallel
+// region. The number of threads is passed to this region alone; the host's OpenMP settings are never changed.
+template <class Body> void for_each_block(int threads, int64_t n, const Body &body) {
+    const int64_t blocks = block_count(n);
+#ifdef GP_WITH_OPENMP
+    // A thread that would get less than two blocks costs more than it brings.
+    const int useful = static_cast<int>(std::max<int64_t>(1, std::min<int64_t>(threads, blocks / 2)));
+    if (useful > 1) {
+#pragma omp parallel for num_threads(useful) schedule(static)
+        for (int64_t block = 0; block < blocks; ++block)
+            body(block, block * block_size, std::min(n, (block + 1) * block_size));
+        return;
+    }
+#else
+    (void)threads;
+#endif
+    for (int64_t block = 0; block < blocks; ++block)
+        body(block, block * block_size, std::min(n, (block + 1) * block_size));
+}
+
+} // namespace gp

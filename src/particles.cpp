@@ -1,0 +1,40 @@
+#include "particles.hpp"
+
+#include "parallel.hpp"
+
+namespace gp {
+
+void Particles::allocate(int64_t n, bool penalty, bool diffusion) {
+    count = n;
+    const auto size = static_cast<std::size_t>(n);
+    id.resize(size);
+    column.resize(size);
+    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy, &gxx, &gxy,
+                                 &gyy, &cxx, &cxy, &cyx, &cyy, &ax, &ay, &push_x, &push_y, &scratch_double_})
+        field->resize(size);
+    if (penalty)
+        stressed.resize(size);
+    if (diffusion)
+        flowing.resize(size);
+    scratch_int64_.resize(size);
+    scratch_int32_.resize(size);
+}
+
+void Particles::reorder(const Field<int32_t> &old_index, int threads) {
+    const auto gather = [&](auto &field, auto &scratch) {
+        if (field.empty())
+            return;
+        for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end; ++i)
+                scratch[i] = field[old_index[i]];
+        });
+        field.swap(scratch);
+    };
+    gather(id, scratch_int64_);
+    gather(column, scratch_int32_);
+    // The gradient is made anew in each step, but readers may ask for it between a reorder and the next one.
+    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy})
+        gather(*field, scratch_double_);
+}
+
+} // namespace gp

@@ -1,0 +1,65 @@
+// Particles: one contiguous array per field, kept in the order of the cell sort. Which fields exist is decided when the
+// plan is made; a field that a scene does not need has no memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace gp {
+
+// Arrays begin on a cache line, so that no two threads' blocks share one at the array's start and vector loads are whole.
+template <class T> struct CacheLineAllocator {
+    using value_type = T;
+    CacheLineAllocator() = default;
+    template <class U> CacheLineAllocator(const CacheLineAllocator<U> &) {}
+    T *allocate(std::size_t n) { return static_cast<T *>(::operator new(n * sizeof(T), std::align_val_t(64))); }
+    void deallocate(T *p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+    template <class U> bool operator==(const CacheLineAllocator<U> &) const { return true; }
+    template <class U> bool operator!=(const CacheLineAllocator<U> &) const { return false; }
+};
+
+template <class T> using Field = std::vector<T, CacheLineAllocator<T>>;
+
+struct Particles {
+    int64_t count = 0;
+    double volume = 0; // m2, spacing^2, of every particle
+
+    // Carried from step to step.
+    Field<int64_t> id;
+    Field<int32_t> column;
+    Field<double> x, y;      // m
+    Field<double> vx, vy;    // m/s
+    Field<double> density;   // kg/m3
+    Field<double> pressure;  // Pa
+    Field<double> sxx, sxy;  // Pa, deviatoric stress
+
+    // Made anew in each step.
+    Field<double> lxx, lxy, lyx, lyy; // 1/s, velocity gradient L_ab = du_a/dr_b
+    Field<double> gxx, gxy, gyy;      // 1/m2, inverse shape tensor K^-1
+    Field<double> cxx, cxy, cyx, cyy; // sigma K^-1, less the penalty's half of L: what a neighbour needs of a particle
+    Field<double> stressed;           // 1 where p > 0, else 0; only with the penalty
+    Field<double> flowing;            // 1 at yield or without stress, else 0; only with density diffusion
+    Field<double> ax, ay;             // m/s2, by the forces
+    Field<double> push_x, push_y;     // m/s, by collisions and contacts with plates after that
+
+    // Gives every field in use its size.
+    void allocate(int64_t n, bool penalty, bool diffusion);
+
+    // Puts the carried fields into the order old_index[new]; scratch arrays keep their memory between calls.
+    void reorder(const Field<int32_t> &old_index, int threads);
+
+    int64_t scratch_bytes() const {
+        return static_cast<int64_t>((scratch_double_.capacity() + scratch_int64_.capacity()) * 8 +
+                                    scratch_int32_.capacity() * 4);
+    }
+
+private:
+    Field<double> scratch_double_;
+    Field<int64_t> scratch_int64_;
+    Field<int32_t> scratch_int32_;
+};
+
+} // namespace gp

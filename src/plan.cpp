@@ -1,0 +1,156 @@
+#include "plan.hpp"
+
+#include <algorithm>
+
+#include "stages/stages.hpp"
+
+namespace gp {
+
+Traits traits_of(const Scene &scene, const Constants &constants) {
+    Traits t;
+    t.particles = scene.particle_count() > 0;
+    t.plates = !scene.plates().empty();
+    t.moving_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [](const PlateSpec &plate) {
+        return plate.velocity != Vector::Zero() || !plate.table.empty();
+    });
+    t.coulomb_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [](const PlateSpec &plate) {
+        return plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0;
+    });
+    t.penalty = constants.penalty > 0;
+    t.collisions = scene.config().collision_distance > 0;
+    t.diffusion = scene.config().density_diffusion > 0;
+    t.several_materials = constants.several_materials;
+    return t;
+}
+
+namespace {
+
+bool in_reach(const World &world) { return world.walls.in_reach(); }
+
+bool plates_move(const World &world) {
+    const std::vector<Plate> &plates = world.walls.plates;
+    return std::any_of(plates.begin(), plates.end(), [&](const Plate &plate) {
+        return plate.moves_after(world.clock.time) || plate.velocity() != Vector::Zero();
+    });
+}
+
+} // namespace
+
+// The time step, in order: reading this table is reading the method.
+std::vector<PlannedStage> make_stages(const Traits &t) {
+    const char *no_particles = "the scene has no particles";
+    const char *no_plates = "the scene has no plates";
+    const char *none_near = "no plate is within reach of material";
+    const bool walls = t.particles && t.plates;
+    // clang-format off
+    return {
+        // name, when the scene needs it, why, why not, function, whether it has work now, what it says when not
+        {"choose_dt", true, "every scene has a clock", "", stages::choose_dt, nullptr, ""},
+        {"move_plates", t.plates, "a plate moves", no_plates,
+         stages::move_plates, plates_move, "no plate moves now"},
+        {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
+        // reads velocity; writes ghost velocity
+        {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
+         stages::wall_velocity, in_reach, none_near},
+        // reads position, velocity; writes shape tensor, velocity gradient
+        {"gradient", t.particles, "particles interact", no_particles, stages::gradient, nullptr, ""},
+        // reads density, shape tensor; writes density
+        {"density_diffusion", t.particles && t.diffusion, "density_diffusion > 0", "density_diffusion is 0",
+         stages::density_diffusion, nullptr, ""},
+        // reads velocity gradient; writes density, pressure
+        {"density", t.particles, "density by continuity", no_particles, stages::density, nullptr, ""},
+        // reads velocity gradient, pressure; writes stress, sigma K^-1
+        {"stress", t.particles, "elastic trial and return map", no_particles, stages::stress, nullptr, ""},
+        // reads pressure, stress; writes ghost stress
+        {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
+         stages::wall_stress, in_reach, none_near},
+        // reads sigma K^-1, velocity, velocity gradient; writes acceleration
+        {"force", t.particles, t.penalty ? "force states, gravity, zero-energy penalty" : "force states, gravity",
+         no_particles, stages::force, nullptr, ""},
+        // reads acceleration; writes velocity, position
+        {"integrate", t.particles, "particles move", no_particles, stages::integrate, nullptr, ""},
+        // reads contact forces; writes velocity, position
+        {"wall_friction", walls && t.coulomb_plates, "a plate has Coulomb friction", "no plate has Coulomb friction",
+         stages::wall_friction, in_reach, none_near},
+        {"side_wall_friction", false, "", "channel_width is 0", nullptr, nullptr, ""},
+        // reads position; writes velocity, position
+        {"collide", t.particles && t.collisions, "collision_distance > 0", "collision_distance is 0",
+         stages::collide, nullptr, ""},
+        {"wall_contact", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
+         stages::wall_contact, in_reach, none_near},
+        {"account", t.particles, "energy ledger, loads, extremes", no_particles, stages::account, nullptr, ""},
+    };
+    // clang-format on
+}
+
+namespace {
+
+template <class T> int64_t bytes_of(const T &field) {
+    return static_cast<int64_t>(field.capacity() * sizeof(typename T::value_type));
+}
+
+template <class... Fields> int64_t bytes_of_all(const Fields &...fields) { return (bytes_of(fields) + ...); }
+
+gp_plan_entry field_entry(const char *name, bool active, const char *reason, int64_t bytes) {
+    gp_plan_entry entry{};
+    entry.name = name;
+    entry.reason = reason;
+    entry.kind = 1;
+    entry.active = active ? 1 : 0;
+    entry.bytes = bytes;
+    return entry;
+}
+
+} // namespace
+
+std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages, const Traits &t, const World &world) {
+    std::vector<gp_plan_entry> entries;
+    for (const PlannedStage &stage : stages) {
+        gp_plan_entry entry{};
+        const bool now = stage.needed && (!stage.now || stage.now(world));
+        entry.name = stage.name;
+        entry.reason = !stage.needed ? stage.why_not : (now ? stage.why : stage.idle);
+        entry.kind = 0;
+        entry.active = now ? 1 : 0;
+        entry.seconds = stage.seconds;
+        entry.calls = stage.calls;
+        entries.push_back(entry);
+    }
+    const Particles &p = world.particles;
+    const char *always = t.particles ? "every scene with particles has it" : "the scene has no particles";
+    const auto common = [&](const char *name, int64_t bytes) {
+        entries.push_back(field_entry(name, t.particles, always, bytes));
+    };
+    common("id", bytes_of(p.id));
+    common("column", bytes_of(p.column));
+    common("position", bytes_of_all(p.x, p.y));
+    common("velocity", bytes_of_all(p.vx, p.vy));
+    common("density", bytes_of(p.density));
+    common("pressure", bytes_of(p.pressure));
+    common("deviatoric_stress", bytes_of_all(p.sxx, p.sxy));
+    common("velocity_gradient", bytes_of_all(p.lxx, p.lxy, p.lyx, p.lyy));
+    common("inverse_shape_tensor", bytes_of_all(p.gxx, p.gxy, p.gyy));
+    common("stress_over_shape", bytes_of_all(p.cxx, p.cxy, p.cyx, p.cyy));
+    common("acceleration", bytes_of_all(p.ax, p.ay));
+    common("push", bytes_of_all(p.push_x, p.push_y));
+    entries.push_back(field_entry("stressed", t.penalty, t.penalty ? "the zero-energy penalty acts on stressed material"
+                                                                   : "zero_energy_penalty is 0",
+                                  bytes_of(p.stressed)));
+    entries.push_back(field_entry("flowing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0",
+                                  bytes_of(p.flowing)));
+    entries.push_back(field_entry("colliding", t.collisions,
+                                  t.collisions ? "collision_distance > 0" : "collision_distance is 0",
+                                  bytes_of(world.colliding)));
+    common("cells", world.grid.bytes());
+    common("neighbor_lists", world.neighbors.bytes());
+    common("sort_scratch", p.scratch_bytes());
+    common("block_sums", bytes_of_all(world.sums, world.ranges));
+    entries.push_back(field_entry("ghosts", t.plates && world.walls.in_reach(),
+                                  !t.plates ? "the scene has no plates"
+                                            : (world.walls.in_reach() ? "a plate is within reach of material"
+                                                                      : "no plate is within reach of material"),
+                                  world.walls.bytes()));
+    return entries;
+}
+
+} // namespace gp

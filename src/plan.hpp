@@ -1,0 +1,35 @@
+// The plan: which stages and fields a scene needs, in order. Made once, before the first step.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "world.hpp"
+
+namespace gp {
+
+// The scene's choices.
+struct Traits {
+    bool particles, plates, moving_plates, coulomb_plates, penalty, collisions, diffusion, several_materials;
+};
+
+Traits traits_of(const Scene &scene, const Constants &constants);
+
+struct PlannedStage {
+    const char *name;
+    bool needed;                        // by the scene
+    const char *why;                    // if needed
+    const char *why_not;                // if not
+    void (*run)(World &);
+    bool (*now)(const World &);         // NULL, or: is there anything to do at the moment?
+    const char *idle;                   // the reason when there is not
+    double seconds = 0;
+    int64_t calls = 0;
+};
+
+std::vector<PlannedStage> make_stages(const Traits &traits);
+
+// Entries for gp_get_plan: stages, then fields and tables.
+std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages, const Traits &traits, const World &world);
+
+} // namespace gp

@@ -1,0 +1,108 @@
+// The scene: config + materials + bodies of particles + plates, checked when they are added and not changed after the
+// first step; and the constants that follow from it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry.hpp"
+#include "granperi/gp.h"
+#include "kernel.hpp"
+#include "material/return_map.hpp"
+
+namespace gp {
+
+gp_config default_config(int32_t preset); // throws for an unknown preset
+gp_material default_material();
+gp_column default_column();
+gp_plate default_plate();
+
+// Displacement of a plate over time: a table of knots, or nothing.
+struct MotionTable {
+    std::vector<double> t, x, y;
+    bool empty() const { return t.empty(); }
+    Vector displacement(double time) const;
+    double last_time() const { return t.empty() ? 0.0 : t.back(); }
+};
+
+struct PlateSpec {
+    Segment segment; // where it stands at time 0, before its table displaces it
+    int32_t friction;
+    double wall_mu;
+    Vector velocity;
+    MotionTable table;
+};
+
+// A column or a set of particles from the host.
+struct Body {
+    int32_t material = 0;
+    int64_t first = 0, count = 0; // its particles
+    bool rectangle = false;       // a column: the next fields are meant
+    double x_min = 0, y_min = 0, width = 0, height = 0;
+    bool hydrostatic = false;
+};
+
+struct MaterialConstants {
+    double density;     // rho0 = phi rho_s, kg/m3
+    double grain_density, grain_diameter;
+    double bulk_modulus; // rho0 c0^2, Pa
+    ReturnMap map;
+};
+
+// What follows from the scene once it is complete.
+struct Constants {
+    double spacing, volume;
+    Vector gravity;
+    double horizon;            // m
+    double interaction_radius; // m
+    LatticeSums lattice;       // for the horizon
+    double sound_speed;        // c0, m/s
+    bool sound_speed_is_arbitrary; // nothing in the scene sets a speed
+    double wave_speed;         // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), m/s
+    double fall_height;        // m, that the sound speed is based on
+    double time_scale;         // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
+    double penalty;            // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
+    std::vector<MaterialConstants> materials;
+    std::vector<int32_t> body_material;
+    bool several_materials;
+};
+
+class Scene {
+public:
+    explicit Scene(const gp_config &config); // throws gp::Error
+
+    int32_t add_material(const gp_material &material);
+    // note: receives a text if the size had to be rounded to whole spacings, else stays empty.
+    int32_t add_column(const gp_column &column, std::string &note);
+    int32_t add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
+                          const double *vy);
+    int32_t add_plate(const gp_plate &plate);
+    // From now on the plate has this constant velocity in place of its motion.
+    void drive_plate(int32_t plate, const Vector &velocity);
+
+    const gp_config &config() const { return config_; }
+    const std::vector<gp_material> &materials() const { return materials_; }
+    const std::vector<Body> &bodies() const { return bodies_; }
+    const std::vector<PlateSpec> &plates() const { return plates_; }
+    int64_t particle_count() const { return static_cast<int64_t>(x.size()); }
+
+    Constants constants() const;
+    // Initial pressure of every particle, Pa (gp_column.initial_pressure).
+    std::vector<double> initial_pressure(const Constants &constants) const;
+
+    // Initial positions and velocities, in the order of id.
+    std::vector<double> x, y, vx, vy;
+    std::vector<int32_t> column;
+
+private:
+    bool face_is_supported(const Body &body, const Vector &outward) const;
+    void reserve(int64_t more);
+
+    gp_config config_;
+    std::vector<gp_material> materials_;
+    std::vector<Body> bodies_;
+    std::vector<PlateSpec> plates_;
+};
+
+} // namespace gp

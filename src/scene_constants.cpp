@@ -1,0 +1,177 @@
+// What follows from a complete scene: the sound speed, the material constants, the pressure to begin with.
+#include <algorithm>
+#include <cmath>
+
+#include "scene.hpp"
+
+namespace gp {
+
+namespace {
+
+// Shear modulus over bulk modulus. Any value of this order gives the same deposit: below yield the material only has to
+// be stiff against its weight, and the wave speed, hence the time step, grows with it.
+constexpr double shear_to_bulk = 0.3;
+
+// Sound speed over the largest flow speed, so that the density varies by about 1 % ([1], section 2.2).
+constexpr double sound_to_flow_speed = 10.0;
+
+struct Range {
+    double low = INFINITY, high = -INFINITY;
+    void add(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    double span() const { return high > low ? high - low : 0.0; }
+};
+
+// The part of a plate's velocity that the material takes part in: a free-slip plate passes on its normal motion alone.
+Vector effective_velocity(const PlateSpec &plate, const Vector &velocity) {
+    if (plate.friction == GP_WALL_FREE_SLIP)
+        return plate.segment.normal * plate.segment.normal.dot(velocity);
+    return velocity;
+}
+
+// Largest difference between any two velocities with which the scene begins or which it prescribes.
+double velocity_span(const Scene &scene) {
+    Range x, y;
+    for (std::size_t i = 0; i < scene.vx.size(); ++i) {
+        x.add(scene.vx[i]);
+        y.add(scene.vy[i]);
+    }
+    const auto add = [&](const Vector &v) {
+        x.add(v.x());
+        y.add(v.y());
+    };
+    for (const PlateSpec &plate : scene.plates()) {
+        add(effective_velocity(plate, plate.velocity));
+        for (std::size_t k = 1; k < plate.table.t.size(); ++k) {
+            const double dt = plate.table.t[k] - plate.table.t[k - 1];
+            add(effective_velocity(plate, {(plate.table.x[k] - plate.table.x[k - 1]) / dt,
+                                           (plate.table.y[k] - plate.table.y[k - 1]) / dt}));
+        }
+    }
+    return std::hypot(x.span(), y.span());
+}
+
+// Height through which material can fall: from its highest point to its own lowest one or to the lowest point beneath it
+// of a plate that faces up.
+double fall_height(const Scene &scene, const Vector &gravity) {
+    if (gravity.norm() == 0 || scene.x.empty())
+        return 0;
+    const Vector up = -gravity.normalized(), across(-up.y(), up.x());
+    Range height, width;
+    for (std::size_t i = 0; i < scene.x.size(); ++i) {
+        const Vector r(scene.x[i], scene.y[i]);
+        height.add(up.dot(r));
+        width.add(across.dot(r));
+    }
+    const double half = 0.5 * scene.config().spacing;
+    double lowest = height.low - half;
+    for (const PlateSpec &plate : scene.plates()) {
+        const Segment &s = plate.segment;
+        if (s.normal.dot(up) <= 0)
+            continue;
+        // The stretch of the plate under the material.
+        const double from = across.dot(s.origin), slope = across.dot(s.tangent);
+        double t0 = 0, t1 = s.length;
+        if (slope != 0) {
+            const double a = (width.low - half - from) / slope, b = (width.high + half - from) / slope;
+            t0 = std::max(t0, std::min(a, b));
+            t1 = std::min(t1, std::max(a, b));
+        } else if (from < width.low - half || from > width.high + half)
+            continue;
+        if (t0 > t1)
+            continue;
+        const double base = up.dot(s.origin), rise = up.dot(s.tangent);
+        lowest = std::min({lowest, base + rise * t0, base + rise * t1});
+    }
+    return height.high + half - lowest;
+}
+
+} // namespace
+
+Constants Scene::constants() const {
+    Constants c;
+    c.spacing = config_.spacing;
+    c.volume = c.spacing * c.spacing;
+    c.gravity = Vector(config_.gravity_x, config_.gravity_y);
+    c.horizon = config_.horizon_length > 0 ? config_.horizon_length : config_.horizon * c.spacing;
+    c.interaction_radius = config_.interaction_radius * c.spacing;
+    c.lattice = lattice_sums(c.horizon, c.spacing);
+
+    const double g = c.gravity.norm();
+    c.fall_height = fall_height(*this, c.gravity);
+    const double span = velocity_span(*this);
+    const double fastest = std::sqrt(2 * g * c.fall_height + span * span);
+    c.sound_speed_is_arbitrary = config_.sound_speed == 0 && fastest == 0;
+    c.sound_speed = config_.sound_speed > 0 ? config_.sound_speed : (fastest > 0 ? sound_to_flow_speed * fastest : 1.0);
+    c.wave_speed = c.sound_speed * std::sqrt(1 + shear_to_bulk);
+    c.time_scale = g > 0 && c.fall_height > 0 ? std::sqrt(c.fall_height / g) : 100 * c.spacing / c.sound_speed;
+
+    double lightest = INFINITY;
+    for (const gp_material &m : materials_) {
+        MaterialConstants k;
+        k.grain_density = m.grain_density;
+        k.grain_diameter = m.grain_diameter;
+        k.density = m.volume_fraction * m.grain_density;
+        k.bulk_modulus = k.density * c.sound_speed * c.sound_speed;
+        k.map.mu_s = config_.friction_factor * m.mu_s;
+        k.map.mu_2 = config_.friction_factor * m.mu_2;
+        k.map.rate_factor = m.i0 / (m.grain_diameter * std::sqrt(m.grain_density));
+        k.map.shear_modulus = shear_to_bulk * k.bulk_modulus;
+        c.materials.push_back(k);
+    }
+    c.body_material.reserve(bodies_.size());
+    for (const Body &body : bodies_) {
+        c.body_material.push_back(body.material);
+        lightest = std::min(lightest, c.materials[static_cast<std::size_t>(body.material)].density);
+    }
+    c.several_materials = std::any_of(bodies_.begin(), bodies_.end(),
+                                      [&](const Body &body) { return body.material != bodies_.front().material; });
+    // One coefficient for all pairs keeps momentum; the lightest material keeps it stable.
+    c.penalty = bodies_.empty()
+                    ? 0.0
+                    : config_.zero_energy_penalty * lightest * c.sound_speed / (c.spacing * c.lattice.number_density);
+    return c;
+}
+
+bool Scene::face_is_supported(const Body &body, const Vector &outward) const {
+    const Vector centre(body.x_min + 0.5 * body.width, body.y_min + 0.5 * body.height);
+    const bool horizontal = outward.y() != 0;
+    const double half_depth = 0.5 * (horizontal ? body.height : body.width);
+    const double length = horizontal ? body.width : body.height;
+    const Vector along(horizontal ? 1.0 : 0.0, horizontal ? 0.0 : 1.0);
+    const auto cells = static_cast<int64_t>(std::round(length / config_.spacing));
+    int64_t covered = 0;
+    for (int64_t k = 0; k < cells; ++k) {
+        const Vector point = centre + half_depth * outward +
+                             along * ((static_cast<double>(k) + 0.5) * config_.spacing - 0.5 * length);
+        covered += std::any_of(plates_.begin(), plates_.end(), [&](const PlateSpec &plate) {
+            return plate.segment.normal.dot(outward) < -0.99 && plate.segment.nearest(point) < 0.5 * config_.spacing;
+        });
+    }
+    return 2 * covered >= cells;
+}
+
+std::vector<double> Scene::initial_pressure(const Constants &c) const {
+    std::vector<double> pressure(x.size(), 0.0);
+    for (const Body &body : bodies_) {
+        if (!body.rectangle || !body.hydrostatic)
+            continue;
+        const double density = c.materials[static_cast<std::size_t>(body.material)].density;
+        for (const Vector &outward : {Vector(0, -1), Vector(0, 1), Vector(-1, 0), Vector(1, 0)}) {
+            const double pressing = outward.dot(c.gravity);
+            if (pressing <= 0 || !face_is_supported(body, outward))
+                continue;
+            const Vector corner(outward.x() > 0 ? body.x_min : body.x_min + body.width,
+                                outward.y() > 0 ? body.y_min : body.y_min + body.height);
+            for (int64_t i = body.first; i < body.first + body.count; ++i) {
+                const double depth = outward.dot(Vector(x[i], y[i]) - corner);
+                pressure[i] += density * pressing * std::max(depth, 0.0); // jitter may lift one above the face
+            }
+        }
+    }
+    return pressure;
+}
+
+} // namespace gp

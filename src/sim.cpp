@@ -1,0 +1,259 @@
+#include "sim.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "check.hpp"
+#include "diagnostics.hpp"
+#include "parallel.hpp"
+#include "stages/stages.hpp"
+
+namespace gp {
+
+namespace {
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------- time loop
+
+void Sim::take_step() {
+    World &world = *world_;
+    double before = now();
+    const double begin = before;
+    for (PlannedStage &stage : stages_) {
+        if (!stage.needed || (stage.now && !stage.now(world)))
+            continue;
+        stage.run(world);
+        const double after = now();
+        stage.seconds += after - before;
+        ++stage.calls;
+        before = after;
+    }
+    world.clock.time += world.clock.dt;
+    ++world.clock.step;
+    ++epoch_;
+    wall_seconds_ += before - begin;
+}
+
+gp_status Sim::advance(gp_sim *handle) {
+    try {
+        take_step();
+    } catch (const Error &error) {
+        diverged_ = error.status() == GP_E_DIVERGED;
+        ++epoch_;
+        throw;
+    } catch (...) { // out of memory inside a step leaves it half done
+        diverged_ = true;
+        ++epoch_;
+        throw;
+    }
+    if (sink)
+        sink->step_done(*world_);
+    if (callback_ && world_->clock.step % callback_every_ == 0) {
+        in_callback_ = true;
+        const int32_t stop = callback_(callback_user_, handle);
+        in_callback_ = false;
+        if (stop)
+            return GP_STOPPED;
+    }
+    return GP_OK;
+}
+
+gp_status Sim::step(gp_sim *handle, int64_t n) {
+    if (n < 0)
+        throw make_error(GP_E_ARGUMENT, "n = %lld: expected a whole number >= 0", static_cast<long long>(n));
+    if (n == 0)
+        return GP_OK;
+    require_steppable();
+    world_->clock.time_left = 0;
+    for (int64_t k = 0; k < n; ++k)
+        if (const gp_status status = advance(handle); status != GP_OK)
+            return status;
+    return GP_OK;
+}
+
+gp_status Sim::run(gp_sim *handle, double t_end) {
+    const double time = world_ ? world_->clock.time : 0.0;
+    if (!std::isfinite(t_end) || t_end < time)
+        throw make_error(GP_E_ARGUMENT, "t_end = %g: expected a finite time not before the clock's %g s", t_end, time);
+    if (t_end == time)
+        return GP_OK;
+    require_steppable();
+    Clock &clock = world_->clock;
+    while (clock.time < t_end) {
+        clock.time_left = t_end - clock.time;
+        const gp_status status = advance(handle);
+        // The step that was to land on the end has done so but for rounding.
+        if (t_end - clock.time < 1e-9 * clock.dt)
+            clock.time = t_end;
+        if (status != GP_OK)
+            return status;
+    }
+    return GP_OK;
+}
+
+// --------------------------------------------------------------------------------------------------- scene
+
+void Sim::require_unstarted(const char *call) const {
+    if (started_)
+        throw make_error(GP_E_STATE, "%s: the scene is fixed once the first step is taken (step %lld)", call,
+                         static_cast<long long>(world_->clock.step));
+    if (sink)
+        throw make_error(GP_E_STATE, "%s: the scene is fixed while an output is open", call);
+}
+
+void Sim::scene_changed() {
+    world_.reset();
+    announced_ = false;
+    ++epoch_;
+}
+
+int32_t Sim::add_material(const gp_material &material) {
+    require_unstarted("gp_add_material");
+    const int32_t id = scene_.add_material(material);
+    scene_changed();
+    return id;
+}
+
+int32_t Sim::add_column(const gp_column &column) {
+    require_unstarted("gp_add_column");
+    std::string note;
+    const int32_t id = scene_.add_column(column, note);
+    scene_changed();
+    if (!note.empty())
+        log(GP_LOG_WARNING, note);
+    return id;
+}
+
+int32_t Sim::add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
+                           const double *vy) {
+    require_unstarted("gp_add_particles");
+    const int32_t id = scene_.add_particles(material, n, x, y, vx, vy);
+    scene_changed();
+    return id;
+}
+
+int32_t Sim::add_plate(const gp_plate &plate) {
+    require_unstarted("gp_add_plate");
+    const int32_t id = scene_.add_plate(plate);
+    scene_changed();
+    return id;
+}
+
+void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
+    require_choice("plate", plate, static_cast<int64_t>(scene_.plates().size()));
+    require_finite("vx", vx);
+    require_finite("vy", vy);
+    if (started_) {
+        world_->walls.plates[plate].drive(world_->clock.time, {vx, vy});
+        ++epoch_;
+    } else {
+        scene_.drive_plate(plate, {vx, vy});
+        scene_changed();
+    }
+}
+
+void Sim::prepare() {
+    if (world_)
+        return;
+    auto world = std::make_unique<World>();
+    world->scene = &scene_;
+    world->constants = scene_.constants();
+    const int32_t threads = scene_.config().threads;
+    world->threads = threads > 0 ? threads : default_threads();
+    const Constants &c = world->constants;
+    Traits traits = traits_of(scene_, c);
+
+    Particles &p = world->particles;
+    p.volume = c.volume;
+    p.allocate(scene_.particle_count(), traits.penalty, traits.diffusion);
+    const std::vector<double> pressure = scene_.initial_pressure(c);
+    for (int64_t i = 0; i < p.count; ++i) {
+        p.id[i] = i;
+        p.column[i] = scene_.column[i];
+        p.x[i] = scene_.x[i];
+        p.y[i] = scene_.y[i];
+        p.vx[i] = scene_.vx[i];
+        p.vy[i] = scene_.vy[i];
+        p.pressure[i] = pressure[i];
+        p.density[i] = world->material_of(i).density + pressure[i] / (c.sound_speed * c.sound_speed);
+    }
+    const int64_t blocks = block_count(p.count);
+    world->sums.resize(blocks);
+    world->ranges.resize(blocks);
+    if (traits.collisions)
+        world->colliding.resize(p.count);
+    for (const PlateSpec &spec : scene_.plates()) {
+        world->walls.plates.emplace_back(spec);
+        world->walls.plates.back().place(0, c.spacing / c.wave_speed);
+    }
+    stages::measure_velocities(*world);
+    stages::update_neighbors(*world);
+    open_ledger(*world);
+
+    world_ = std::move(world);
+    traits_ = traits;
+    stages_ = make_stages(traits_);
+}
+
+void Sim::require_steppable() const {
+    if (diverged_)
+        throw make_error(GP_E_STATE, "the simulation has diverged and cannot be stepped");
+    Sim &self = const_cast<Sim &>(*this);
+    self.prepare();
+    check_demanded_step();
+    if (!announced_) {
+        warn_about_scene();
+        self.announced_ = true;
+    }
+    self.started_ = true;
+}
+
+void Sim::check_demanded_step() const {
+    const double demanded = scene_.config().time_step;
+    const double limit = stages::stable_dt(world_->constants);
+    if (demanded > limit)
+        throw make_error(GP_E_ARGUMENT, "gp_config.time_step = %g: expected at most %g s, the stable limit of this scene", demanded,
+                         limit);
+    const double cfl = scene_.config().cfl;
+    if (cfl * world_->constants.spacing / world_->constants.wave_speed > limit)
+        throw make_error(GP_E_ARGUMENT, "gp_config.cfl = %g: expected at most %g, the stable limit", cfl,
+                         limit * world_->constants.wave_speed / world_->constants.spacing);
+}
+
+void Sim::warn_about_scene() const {
+    const Constants &c = world_->constants;
+    if (c.sound_speed_is_arbitrary && scene_.particle_count() > 0)
+        log(GP_LOG_WARNING, "sound_speed: nothing in the scene sets a speed, so 1 m/s is used");
+    const int64_t wrong_side = world_->walls.count_overlapping(world_->particles, 0.25 * c.spacing);
+    if (wrong_side > 0)
+        log(GP_LOG_WARNING, format_text("%lld particles begin within a quarter spacing of a plate's wetted line or just "
+                                        "behind it", static_cast<long long>(wrong_side)));
+}
+
+// ----------------------------------------------------------------------------------------------- callbacks
+
+void Sim::set_callback(int64_t every, gp_callback callback, void *user) {
+    if (callback && every < 1)
+        throw make_error(GP_E_ARGUMENT, "every = %lld: expected a whole number >= 1", static_cast<long long>(every));
+    callback_ = callback;
+    callback_user_ = user;
+    callback_every_ = callback ? every : 1;
+}
+
+void Sim::set_log(gp_log callback, void *user) {
+    log_ = callback;
+    log_user_ = user;
+}
+
+void Sim::log(int32_t level, const std::string &text) const {
+    if (log_)
+        log_(log_user_, level, text.c_str());
+}
+
+} // namespace gp

@@ -1,0 +1,79 @@
+// A simulation: the scene, the world that the stages work on, and the loop over time steps.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "granperi/gp.h"
+#include "plan.hpp"
+#include "scene.hpp"
+#include "world.hpp"
+
+namespace gp {
+
+// A sink of frames that follows a run (io/). Kept abstract here: sim knows no file format.
+class FrameSink {
+public:
+    virtual ~FrameSink() = default;
+    virtual void step_done(const World &world) = 0; // throws gp::Error(GP_E_IO)
+};
+
+class Sim {
+public:
+    explicit Sim(const gp_config &config) : scene_(config) {}
+
+    // Adding to the scene; possible until the first step.
+    int32_t add_material(const gp_material &material);
+    int32_t add_column(const gp_column &column);
+    int32_t add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
+                          const double *vy);
+    int32_t add_plate(const gp_plate &plate);
+    void set_plate_velocity(int32_t plate, double vx, double vy);
+
+    gp_status step(gp_sim *handle, int64_t n);
+    gp_status run(gp_sim *handle, double t_end);
+
+    void set_callback(int64_t every, gp_callback callback, void *user);
+    void set_log(gp_log callback, void *user);
+    void log(int32_t level, const std::string &text) const;
+
+    // Builds what the stages work on from the scene, if that is still to be done. Readers call it first.
+    void prepare();
+    const Scene &scene() const { return scene_; }
+    const World &world() const { return *world_; }
+    std::vector<gp_plan_entry> plan() const { return describe_plan(stages_, traits_, *world_); }
+
+    uint64_t epoch() const { return epoch_; }
+    double wall_seconds() const { return wall_seconds_; }
+    bool in_callback() const { return in_callback_; }
+
+    FrameSink *sink = nullptr; // the open output, if any
+
+private:
+    void require_unstarted(const char *call) const;
+    void require_steppable() const;
+    void scene_changed();
+    void check_demanded_step() const;
+    void warn_about_scene() const;
+    void take_step();
+    gp_status advance(gp_sim *handle); // one step, output and callback
+
+    Scene scene_;
+    std::unique_ptr<World> world_;
+    Traits traits_{};
+    std::vector<PlannedStage> stages_;
+    bool started_ = false, diverged_ = false, in_callback_ = false;
+    bool announced_ = false; // the scene's notes have been logged
+    uint64_t epoch_ = 0;
+    double wall_seconds_ = 0;
+
+    gp_callback callback_ = nullptr;
+    void *callback_user_ = nullptr;
+    int64_t callback_every_ = 1;
+    gp_log log_ = nullptr;
+    void *log_user_ = nullptr;
+};
+
+} // namespace gp

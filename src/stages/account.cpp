@@ -1,0 +1,108 @@
+// Closes the step's books: energy ledger, loads, and the extremes that the next step's size follows from.
+#include <algorithm>
+#include <cmath>
+
+#include "parallel.hpp"
+#include "stages/stages.hpp"
+
+namespace gp::stages {
+
+void measure_velocities(World &world) {
+    const Particles &p = world.particles;
+    const double inverse_dt = world.clock.dt > 0 ? 1.0 / world.clock.dt : 0.0;
+    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+        BlockRange range{INFINITY, -INFINITY, INFINITY, -INFINITY};
+        double kinetic = 0, acceleration2 = 0;
+        for (int64_t i = begin; i < end; ++i) {
+            const double u = p.vx[i], v = p.vy[i];
+            range.u_min = u < range.u_min ? u : range.u_min;
+            range.u_max = u > range.u_max ? u : range.u_max;
+            range.v_min = v < range.v_min ? v : range.v_min;
+            range.v_max = v > range.v_max ? v : range.v_max;
+            kinetic += world.material_of(i).density * (u * u + v * v);
+            const double ax = p.ax[i] + inverse_dt * p.push_x[i], ay = p.ay[i] + inverse_dt * p.push_y[i];
+            acceleration2 += ax * ax + ay * ay;
+        }
+        world.ranges[block] = range;
+        world.sums[block].kinetic = 0.5 * p.volume * kinetic;
+        world.sums[block].acceleration2 = acceleration2;
+    });
+
+    if (p.count == 0)
+        return;
+    BlockRange all{INFINITY, -INFINITY, INFINITY, -INFINITY};
+    for (const BlockRange &range : world.ranges) {
+        all.u_min = std::min(all.u_min, range.u_min);
+        all.u_max = std::max(all.u_max, range.u_max);
+        all.v_min = std::min(all.v_min, range.v_min);
+        all.v_max = std::max(all.v_max, range.v_max);
+    }
+    world.fastest = std::hypot(std::max(-all.u_min, all.u_max), std::max(-all.v_min, all.v_max));
+    for (const Plate &plate : world.walls.plates) {
+        if (plate.gap > 0) // too far away to matter
+            continue;
+        all.u_min = std::min(all.u_min, plate.velocity().x());
+        all.u_max = std::max(all.u_max, plate.velocity().x());
+        all.v_min = std::min(all.v_min, plate.velocity().y());
+        all.v_max = std::max(all.v_max, plate.velocity().y());
+    }
+    world.velocity_span = std::hypot(all.u_max - all.u_min, all.v_max - all.v_min);
+}
+
+void account(World &world) {
+    const Particles &p = world.particles;
+    const double dt = world.clock.dt;
+    measure_velocities(world);
+    world.shifted += world.velocity_span * dt;
+    for (Plate &plate : world.walls.plates)
+        if (plate.gap > 0) {
+            plate.gap -= dt * (plate.velocity().norm() + world.fastest);
+            world.lists_valid = world.lists_valid && plate.gap > 0;
+        }
+
+    BlockSums total;
+    for (const BlockSums &block : world.sums) {
+        total.plastic += block.plastic;
+        total.bulk += block.bulk;
+        total.diffused += block.diffused;
+        total.total_power += block.total_power;
+        total.internal_power += block.internal_power;
+        total.acceleration2 += block.acceleration2;
+        total.collision_loss += block.collision_loss;
+        total.collisions += block.collisions;
+        total.kinetic += block.kinetic;
+    }
+
+    // Power balance of the force stage, exact by the adjoint operators: with the ghosts' share G of sigma : L,
+    //   total = -internal + sum (G + f . u) over contacts - penalty,
+    // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface.
+    double contact_power = 0, plate_power = 0;
+    for (const Contact &contact : world.walls.contacts) {
+        Plate &plate = world.walls.plates[contact.plate];
+        const int64_t i = contact.particle;
+        const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
+        plate.force += reaction;
+        const Vector &t = plate.segment().tangent;
+        plate.torque += plate.segment().along({p.x[i], p.y[i]}) * (t.x() * reaction.y() - t.y() * reaction.x());
+        contact_power += p.volume * (contact.ghost_power + contact.power);
+        plate_power -= reaction.dot(plate.velocity());
+    }
+    const double penalty = dt * (contact_power - total.internal_power - total.total_power);
+    for (Plate &plate : world.walls.plates)
+        plate.impulse += dt * plate.force;
+
+    Ledger &ledger = world.ledger;
+    ledger.plate_work -= dt * plate_power;
+    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.collision_loss + penalty + dt * (plate_power - contact_power);
+    ledger.penalty += penalty;
+    ledger.walls += dt * (plate_power - contact_power);
+    ledger.bulk += total.bulk;
+    ledger.diffusion += total.diffused;
+    ledger.collisions += total.collision_loss;
+    ledger.largest_kinetic = std::max(ledger.largest_kinetic, total.kinetic);
+    world.collisions += total.collisions / 2;
+    world.plastic_power = total.plastic / dt;
+    world.rms_acceleration = p.count > 0 ? std::sqrt(total.acceleration2 / static_cast<double>(p.count)) : 0.0;
+}
+
+} // namespace gp::stages

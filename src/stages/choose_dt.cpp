@@ -1,0 +1,41 @@
+#include <algorithm>
+
+#include "stages/stages.hpp"
+
+namespace gp::stages {
+
+namespace {
+
+// The scheme's own step over dl / wave speed, and the largest one that is stable: see docs/stability notes in the tests.
+constexpr double default_cfl = 0.5;
+constexpr double stable_cfl = 1.0;
+
+// Relative motion allowed in one step, in dl: positions, and so neighbours, change little.
+constexpr double flow_share = 0.25;
+
+} // namespace
+
+double stable_dt(const Constants &constants) { return stable_cfl * constants.spacing / constants.wave_speed; }
+
+void choose_dt(World &world) {
+    const gp_config &config = world.scene->config();
+    const Constants &c = world.constants;
+    Clock &clock = world.clock;
+    double dt = config.time_step;
+    if (dt == 0) {
+        const double cfl = config.cfl > 0 ? config.cfl : default_cfl;
+        dt = cfl * c.spacing / c.wave_speed;
+        if (world.velocity_span > 0)
+            dt = std::min(dt, flow_share * c.spacing / world.velocity_span);
+    }
+    if (clock.time_left > 0) {
+        // The last two steps share what is left, so that none is tiny.
+        if (clock.time_left <= dt)
+            dt = clock.time_left;
+        else if (clock.time_left < 2 * dt)
+            dt = 0.5 * clock.time_left;
+    }
+    clock.dt = dt;
+}
+
+} // namespace gp::stages

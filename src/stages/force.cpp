@@ -1,0 +1,194 @@
+#include <cmath>
+
+#include "operators.hpp"
+#include "parallel.hpp"
+#include "stages/stages.hpp"
+
+namespace gp::stages {
+
+namespace {
+
+struct View {
+    const double *x, *y, *vx, *vy, *stressed;
+    const double *cxx, *cxy, *cyx, *cyy, *lxx, *lxy, *lyx, *lyy;
+    const int64_t *start;
+    const int32_t *index;
+    double inverse_radius, penalty;
+};
+
+struct Force {
+    double x, y; // N/m3
+};
+
+// sum_j w (A_i + A_j) r_ij, and with the penalty also sum_j kappa w (u_j - u_i - (L_i + L_j) r_ij / 2) between stressed
+// particles: the velocity that L does not see. C = A - kappa L / 2 carries both of a neighbour's tensors at once.
+template <bool Penalty> GP_INLINE Force particle_force(const View &v, int64_t i) {
+    const int32_t *__restrict row = v.index + v.start[i];
+    const int64_t n = v.start[i + 1] - v.start[i];
+    const double xi = v.x[i], yi = v.y[i];
+    const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
+    const double *__restrict cxx = v.cxx, *__restrict cxy = v.cxy, *__restrict cyx = v.cyx, *__restrict cyy = v.cyy;
+    const double *__restrict stressed = v.stressed;
+    const double inverse_radius = v.inverse_radius;
+    double wx = 0, wy = 0, tx = 0, ty = 0, pw = 0, px = 0, py = 0, pu = 0, pv = 0;
+#pragma omp simd reduction(+ : wx, wy, tx, ty, pw, px, py, pu, pv)
+    for (int64_t k = 0; k < n; ++k) {
+        const int32_t j = row[k];
+        const double dx = x[j] - xi, dy = y[j] - yi;
+        const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+        const double wdx = w * dx, wdy = w * dy;
+        wx += wdx;
+        wy += wdy;
+        tx += cxx[j] * wdx + cxy[j] * wdy;
+        ty += cyx[j] * wdx + cyy[j] * wdy;
+        if (Penalty) {
+            const double share = w * stressed[j];
+            pw += share;
+            px += stressed[j] * wdx;
+            py += stressed[j] * wdy;
+            pu += share * vx[j];
+            pv += share * vy[j];
+        }
+    }
+    if (!Penalty)
+        return {cxx[i] * wx + cxy[i] * wy + tx, cyx[i] * wx + cyy[i] * wy + ty};
+
+    const double half = 0.5 * v.penalty;
+    if (stressed[i] > 0) {
+        const double axx = cxx[i] + half * v.lxx[i], axy = cxy[i] + half * v.lxy[i];
+        const double ayx = cyx[i] + half * v.lyx[i], ayy = cyy[i] + half * v.lyy[i];
+        return {axx * wx + axy * wy + tx +
+                    v.penalty * (pu - vx[i] * pw - 0.5 * (v.lxx[i] * px + v.lxy[i] * py)),
+                ayx * wx + ayy * wy + ty +
+                    v.penalty * (pv - vy[i] * pw - 0.5 * (v.lyx[i] * px + v.lyy[i] * py))};
+    }
+    // Stress-free: only the neighbours' stresses act, so the penalty's part of C_j is taken out again.
+    for (int64_t k = 0; k < n; ++k) {
+        const int32_t j = row[k];
+        const double dx = x[j] - xi, dy = y[j] - yi;
+        const double share = half * stressed[j] * weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+        tx += share * (v.lxx[j] * dx + v.lxy[j] * dy);
+        ty += share * (v.lyx[j] * dx + v.lyy[j] * dy);
+    }
+    return {tx, ty};
+}
+
+struct WallView {
+    const double *x, *y, *vx, *vy, *gx, *gy, *gvx, *gvy, *axx, *axy, *ayy;
+    const int32_t *index;
+    double inverse_radius;
+};
+
+// Force density of one plate's ghosts on a particle with A = sigma K^-1, and the ghosts' share of sigma : L, that is
+// sum w (u_g - u_i) . A r.
+GP_INLINE void contact_force(const WallView &v, const Tensor &a, Contact &contact) {
+    const int64_t i = contact.particle;
+    const double xi = v.x[i], yi = v.y[i];
+    double wx = 0, wy = 0, tx = 0, ty = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
+    const double ui = v.vx[i], vi = v.vy[i];
+#pragma omp simd reduction(+ : wx, wy, tx, ty, gxx, gxy, gyx, gyy)
+    for (int64_t k = contact.begin; k < contact.end; ++k) {
+        const int32_t g = v.index[k];
+        const double dx = v.gx[g] - xi, dy = v.gy[g] - yi;
+        const double w = weight(std::sqrt(dx * dx + dy * dy), v.inverse_radius);
+        const double wdx = w * dx, wdy = w * dy;
+        wx += wdx;
+        wy += wdy;
+        tx += v.axx[g] * wdx + v.axy[g] * wdy;
+        ty += v.axy[g] * wdx + v.ayy[g] * wdy;
+        gxx += (v.gvx[g] - ui) * wdx;
+        gxy += (v.gvx[g] - ui) * wdy;
+        gyx += (v.gvy[g] - vi) * wdx;
+        gyy += (v.gvy[g] - vi) * wdy;
+    }
+    contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx;
+    contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty;
+    contact.ghost_power = a(0, 0) * gxx + a(0, 1) * gxy + a(1, 0) * gyx + a(1, 1) * gyy;
+}
+
+template <bool Penalty> GP_INLINE void force_rows(const View &v, double *ax, double *ay, int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) {
+        const Force f = particle_force<Penalty>(v, i);
+        ax[i] = f.x;
+        ay[i] = f.y;
+    }
+}
+
+GP_MULTIVERSION void plain_rows(const View &v, double *ax, double *ay, int64_t begin, int64_t end) {
+    force_rows<false>(v, ax, ay, begin, end);
+}
+
+GP_MULTIVERSION void penalty_rows(const View &v, double *ax, double *ay, int64_t begin, int64_t end) {
+    force_rows<true>(v, ax, ay, begin, end);
+}
+
+GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
+    const Particles &p = world.particles;
+    const double half = 0.5 * world.constants.penalty;
+    for (int64_t k = begin; k < end; ++k) {
+        Contact &contact = world.walls.contacts[k];
+        const int64_t i = contact.particle;
+        Tensor a;
+        a << p.cxx[i], p.cxy[i], p.cyx[i], p.cyy[i];
+        if (half > 0 && p.stressed[i] > 0) {
+            Tensor l;
+            l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
+            a += half * l;
+        }
+        const Plate &plate = world.walls.plates[contact.plate];
+        contact_force(v, a, contact);
+        // A wall only pushes, and one without friction of its own has no tangential traction.
+        const Vector &n = plate.segment().normal;
+        const double normal = contact.force_x * n.x() + contact.force_y * n.y();
+        const double push = normal > 0 ? normal : 0.0;
+        const bool slips = plate.spec().friction != GP_WALL_NO_SLIP;
+        contact.force_x = slips ? push * n.x() : contact.force_x + (push - normal) * n.x();
+        contact.force_y = slips ? push * n.y() : contact.force_y + (push - normal) * n.y();
+        contact.power = contact.force_x * p.vx[i] + contact.force_y * p.vy[i];
+    }
+}
+
+} // namespace
+
+void force(World &world) {
+    Particles &p = world.particles;
+    Walls &walls = world.walls;
+    for (Plate &plate : walls.plates) {
+        plate.force = Vector::Zero();
+        plate.torque = 0;
+    }
+    const Constants &c = world.constants;
+    const View view{p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),  p.stressed.data(), p.cxx.data(), p.cxy.data(),
+                    p.cyx.data(), p.cyy.data(), p.lxx.data(), p.lxy.data(), p.lyx.data(),      p.lyy.data(), world.neighbors.start.data(),
+                    world.neighbors.index.data(), 1.0 / c.horizon, c.penalty};
+    const bool in_reach = walls.in_reach();
+    if (in_reach) {
+        const WallView wall{p.x.data(), p.y.data(), p.vx.data(), p.vy.data(), walls.ghost_x.data(), walls.ghost_y.data(),
+                            walls.ghost_vx.data(), walls.ghost_vy.data(), walls.ghost_axx.data(), walls.ghost_axy.data(),
+                            walls.ghost_ayy.data(), walls.ghost_of_contact.data(), 1.0 / c.horizon};
+        for_each_block(world.threads, static_cast<int64_t>(walls.contacts.size()),
+                       [&](int64_t, int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
+    }
+    const auto rows = c.penalty > 0 ? penalty_rows : plain_rows;
+    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+        rows(view, p.ax.data(), p.ay.data(), begin, end);
+        double power = 0, acceleration2 = 0;
+        for (int64_t i = begin; i < end; ++i) {
+            double fx = p.ax[i], fy = p.ay[i];
+            if (in_reach)
+                for (int64_t k = walls.contact_start[i]; k < walls.contact_start[i + 1]; ++k) {
+                    fx += walls.contacts[k].force_x;
+                    fy += walls.contacts[k].force_y;
+                }
+            power += p.vx[i] * fx + p.vy[i] * fy;
+            const double inverse_density = 1.0 / world.material_of(i).density;
+            p.ax[i] = fx * inverse_density + c.gravity.x();
+            p.ay[i] = fy * inverse_density + c.gravity.y();
+            acceleration2 += p.ax[i] * p.ax[i] + p.ay[i] * p.ay[i];
+        }
+        world.sums[block].total_power = p.volume * power;
+        world.sums[block].acceleration2 = acceleration2;
+    });
+}
+
+} // namespace gp::stages

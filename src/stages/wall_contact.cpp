@@ -1,0 +1,84 @@
+// What plates do to single particles after the step: Coulomb friction, and the guarantee that nothing passes through.
+// Both run over the contacts in their order; contacts are few.
+#include <algorithm>
+#include <cmath>
+
+#include "stages/stages.hpp"
+
+namespace gp::stages {
+
+namespace {
+
+// A particle nearer than this to a plate and approaching collides with it: the collision distance of 0.9 dl from the
+// first layer of ghosts, half a spacing behind the surface.
+constexpr double contact_distance = 0.4; // dl
+
+// Gives particle i the velocity change (relative to nothing: the lab's) that a plate causes in this step.
+void push(World &world, const Contact &contact, const Vector &change) {
+    Particles &p = world.particles;
+    Plate &plate = world.walls.plates[contact.plate];
+    const int64_t i = contact.particle;
+    const double mass = world.material_of(i).density * p.volume;
+    // Forces are accounted for at the mean velocity of the step, pushes included. What that leaves for a push is its work
+    // at the mean of the velocities before and after it, less half the acceleration's share.
+    const Vector share = 0.5 * world.clock.dt * Vector(p.ax[i], p.ay[i]);
+    const Vector mean = Vector(p.vx[i], p.vy[i]) + 0.5 * change - share;
+    const Vector reaction = -mass / world.clock.dt * change;
+    plate.force += reaction;
+    const double lever = plate.segment().along({p.x[i], p.y[i]});
+    const Vector &t = plate.segment().tangent;
+    plate.torque += lever * (t.x() * reaction.y() - t.y() * reaction.x());
+    const double plate_power_on_material = mass * change.dot(plate.velocity());
+    world.ledger.plate_work -= plate_power_on_material;
+    world.ledger.dissipated += plate_power_on_material - mass * change.dot(mean);
+    p.vx[i] += change.x();
+    p.vy[i] += change.y();
+    p.push_x[i] += change.x();
+    p.push_y[i] += change.y();
+    p.x[i] += world.clock.dt * change.x();
+    p.y[i] += world.clock.dt * change.y();
+}
+
+} // namespace
+
+void wall_friction(World &world) {
+    const Particles &p = world.particles;
+    for (const Contact &contact : world.walls.contacts) {
+        const Plate &plate = world.walls.plates[contact.plate];
+        if (plate.spec().friction != GP_WALL_COULOMB)
+            continue;
+        const int64_t i = contact.particle;
+        const Segment &s = plate.segment();
+        const double normal = s.normal.x() * contact.force_x + s.normal.y() * contact.force_y;
+        const double slip = s.tangent.dot(Vector(p.vx[i], p.vy[i]) - plate.velocity());
+        const double most = plate.spec().wall_mu * normal * world.clock.dt / world.material_of(i).density;
+        const double stop = std::min(std::abs(slip), most); // friction can hold, not drive
+        if (stop > 0)
+            push(world, contact, (slip > 0 ? -stop : stop) * s.tangent);
+    }
+}
+
+void wall_contact(World &world) {
+    const Particles &p = world.particles;
+    const double nearest = contact_distance * world.constants.spacing;
+    for (const Contact &contact : world.walls.contacts) {
+        const Plate &plate = world.walls.plates[contact.plate];
+        const Segment &s = plate.segment();
+        const int64_t i = contact.particle;
+        const Vector moved = world.clock.dt * plate.velocity(); // of the plate in this step
+        const Vector at = Vector(p.x[i], p.y[i]) - moved;
+        if (s.distance(at) >= nearest || !s.covers(s.along(at), 0.0))
+            continue;
+        const Vector relative = Vector(p.vx[i], p.vy[i]) - plate.velocity();
+        const double approach = -s.normal.dot(relative);
+        if (approach <= 0)
+            continue;
+        // The blow's friction: that of the material itself on a rough plate.
+        const double mu = plate.spec().friction == GP_WALL_NO_SLIP ? world.map_of(i).mu_s : plate.spec().wall_mu;
+        const double slip = s.tangent.dot(relative);
+        const double stop = std::min(std::abs(slip), mu * approach);
+        push(world, contact, approach * s.normal + (slip > 0 ? -stop : stop) * s.tangent);
+    }
+}
+
+} // namespace gp::stages

@@ -1,0 +1,101 @@
+// What the ghosts behind a plate carry: velocity and stress extrapolated from the particles that see them, after Adami,
+// Hu & Adams (2012). Ghosts that simply carried the plate's velocity would put the no-slip surface about 1.3 dl too deep.
+#include <algorithm>
+#include <cmath>
+
+#include "kernel.hpp"
+#include "parallel.hpp"
+#include "stages/stages.hpp"
+
+namespace gp::stages {
+
+namespace {
+
+// Velocities are extrapolated linearly through the plate's surface, by the ratio of the ghost's depth to the particles'
+// mean distance, but no steeper than this. Measured on the collapse with a = 1.25, L/dl = 32: unlimited, the extrapolation
+// drives the flow with 3.1 % of the initial energy and keeps the deposit stirring; with a limit of 1 it drives no longer,
+// but leaves pressure spikes of 1.4 rho g H at the floor; with 0.5 and 0.25 spikes stay below 1.15 rho g H. The peak of
+// the deposit does not change by more than 1 %. The nearest layer of ghosts, which counts most, stays exact along the
+// plate.
+constexpr double steepest_tangential = 0.5, steepest_normal = 0.25;
+
+} // namespace
+
+void wall_velocity(World &world) {
+    Walls &w = world.walls;
+    const Particles &p = world.particles;
+    const double inverse_radius = 1.0 / world.constants.horizon;
+    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k) {
+            const Plate &plate = w.plates[w.ghost_plate[k]];
+            const Segment &s = plate.segment();
+            double sw = 0, su = 0, sv = 0, sd = 0;
+            for (int64_t e = w.particles_of_ghost.start[k]; e < w.particles_of_ghost.start[k + 1]; ++e) {
+                const int32_t i = w.particles_of_ghost.index[e];
+                const double q = weight(std::hypot(p.x[i] - w.ghost_x[k], p.y[i] - w.ghost_y[k]), inverse_radius);
+                sw += q;
+                su += q * p.vx[i];
+                sv += q * p.vy[i];
+                sd += q * s.distance({p.x[i], p.y[i]});
+            }
+            if (sw <= 0) { // in the skin only
+                w.ghost_vx[k] = plate.velocity().x();
+                w.ghost_vy[k] = plate.velocity().y();
+                continue;
+            }
+            const Vector relative = Vector(su, sv) / sw - plate.velocity();
+            const double ratio = w.ghost_depth[k] / std::max(sd / sw, 1e-9 * w.ghost_depth[k]);
+            const double normal = -std::min(ratio, steepest_normal) * s.normal.dot(relative);
+            // Without friction of its own a plate passes no shear through its surface.
+            const double tangential = (plate.spec().friction == GP_WALL_NO_SLIP ? -std::min(ratio, steepest_tangential) : 1.0) *
+                                      s.tangent.dot(relative);
+            const Vector ghost = plate.velocity() + normal * s.normal + tangential * s.tangent;
+            w.ghost_vx[k] = ghost.x();
+            w.ghost_vy[k] = ghost.y();
+        }
+    });
+}
+
+void wall_stress(World &world) {
+    Walls &w = world.walls;
+    const Particles &p = world.particles;
+    const Constants &c = world.constants;
+    const double inverse_radius = 1.0 / c.horizon;
+    const double inverse_moment = 1.0 / c.lattice.second_moment;
+    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k) {
+            const Plate &plate = w.plates[w.ghost_plate[k]];
+            double sw = 0, sp = 0, weight_of_stressed = 0, sxx = 0, sxy = 0;
+            for (int64_t e = w.particles_of_ghost.start[k]; e < w.particles_of_ghost.start[k + 1]; ++e) {
+                const int32_t i = w.particles_of_ghost.index[e];
+                const double dx = w.ghost_x[k] - p.x[i], dy = w.ghost_y[k] - p.y[i];
+                const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+                sw += q;
+                if (p.pressure[i] > 0) { // stress-free material in flight feels no wall
+                    sp += q * p.pressure[i];
+                    weight_of_stressed += q * p.density[i] * (c.gravity.x() * dx + c.gravity.y() * dy);
+                    sxx += q * p.sxx[i];
+                    sxy += q * p.sxy[i];
+                }
+            }
+            const double pressure = sw > 0 ? std::max(0.0, (sp + weight_of_stressed) / sw) : 0.0;
+            // The stress ratio, not the stress, carries over: it is what the friction law bounds.
+            const double scale = sp > 0 ? pressure / sp : 0.0;
+            sxx *= scale;
+            sxy *= scale;
+            if (plate.spec().friction != GP_WALL_NO_SLIP) {
+                // Keep the normal part of s alone: s = s_nn (n n - t t).
+                const Vector &n = plate.segment().normal;
+                const double c2 = n.x() * n.x() - n.y() * n.y(), s2 = 2 * n.x() * n.y();
+                const double normal = sxx * c2 + sxy * s2;
+                sxx = normal * c2;
+                sxy = normal * s2;
+            }
+            w.ghost_axx[k] = inverse_moment * (sxx - pressure);
+            w.ghost_axy[k] = inverse_moment * sxy;
+            w.ghost_ayy[k] = inverse_moment * (-sxx - pressure);
+        }
+    });
+}
+
+} // namespace gp::stages

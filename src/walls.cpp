@@ -1,0 +1,244 @@
+#include "walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "parallel.hpp"
+
+namespace gp {
+
+Vector Plate::displacement(double time) const {
+    if (driven_)
+        return driven_from_ + (time - driven_since_) * driven_velocity_;
+    if (!spec_->table.empty())
+        return spec_->table.displacement(time);
+    return time * spec_->velocity;
+}
+
+void Plate::drive(double time, const Vector &velocity) {
+    driven_from_ = displacement(time);
+    driven_since_ = time;
+    driven_velocity_ = velocity;
+    driven_ = true;
+}
+
+bool Plate::moves_after(double time) const {
+    if (driven_)
+        return driven_velocity_ != Vector::Zero();
+    if (!spec_->table.empty())
+        return time < spec_->table.last_time();
+    return spec_->velocity != Vector::Zero();
+}
+
+void Plate::place(double time, double dt) {
+    const Vector now = displacement(time);
+    placed_ = spec_->segment.moved(now);
+    velocity_ = (displacement(time + dt) - now) / dt;
+    if (!driven_ && spec_->table.empty())
+        velocity_ = spec_->velocity; // free of rounding
+    else if (driven_)
+        velocity_ = driven_velocity_;
+}
+
+int64_t Walls::count_overlapping(const Particles &particles, double margin) const {
+    int64_t found = 0;
+    for (int64_t i = 0; i < particles.count; ++i) {
+        const Vector at(particles.x[i], particles.y[i]);
+        found += std::any_of(plates.begin(), plates.end(), [&](const Plate &plate) {
+            return std::abs(plate.segment().distance(at)) < margin && plate.segment().covers(plate.segment().along(at), 0);
+        });
+    }
+    return found;
+}
+
+int64_t Walls::bytes() const {
+    int64_t total = particles_of_ghost.bytes();
+    for (const Field<double> *field : {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx,
+                                       &ghost_axy, &ghost_ayy})
+        total += static_cast<int64_t>(field->capacity() * sizeof(double));
+    for (const Field<int32_t> *field : {&ghost_plate, &ghost_of_contact, &contact_start, &fill_})
+        total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
+    return total + static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate));
+}
+
+namespace {
+
+// A particle this close behind the line still counts as in front of it: the contact stage is about to push it back.
+constexpr double penetration_allowed = 0.5; // dl
+
+Box box_around(const Segment &s, double margin) {
+    const Vector end = s.origin + s.length * s.tangent;
+    return {std::min(s.origin.x(), end.x()) - margin, std::max(s.origin.x(), end.x()) + margin,
+            std::min(s.origin.y(), end.y()) - margin, std::max(s.origin.y(), end.y()) + margin};
+}
+
+} // namespace
+
+std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) const {
+    std::vector<Segment> found;
+    for (const Plate &plate : plates) {
+        const Segment &s = plate.segment();
+        const Box box = box_around(s, radius);
+        if (particles.count == 0 || box.gap(grid.box()) > 0)
+            continue;
+        const double allowed = penetration_allowed * std::sqrt(particles.volume);
+        bool behind = false;
+        // The square that holds the plate's box; runs outside the box are narrowed by the test below.
+        const double half = 0.5 * std::max(box.x_max - box.x_min, box.y_max - box.y_min);
+        grid.for_each_run(0.5 * (box.x_min + box.x_max), 0.5 * (box.y_min + box.y_max), half,
+                          [&](int64_t begin, int64_t end) {
+                              for (int64_t i = begin; i < end && !behind; ++i) {
+                                  const Vector r(particles.x[i], particles.y[i]);
+                                  const double d = s.distance(r), along = s.along(r);
+                                  behind = d < -allowed && d > -radius && along > -radius && along < s.length + radius;
+                              }
+                          });
+        if (behind)
+            found.push_back(s);
+    }
+    return found;
+}
+
+void Walls::find_contacts(const Particles &particles, const CellGrid &grid, double radius, double spacing, int threads) {
+    const int64_t n = particles.count;
+    const double tolerance = 1e-9 * spacing;
+    candidates_.clear();
+
+    // Lattice points behind each plate that lie within reach of the particles' box.
+    const auto layers = static_cast<int64_t>(std::ceil(radius / spacing));
+    std::vector<Segment> near_segments;
+    std::vector<int32_t> near_plates;
+    for (std::size_t p = 0; p < plates.size() && n > 0; ++p) {
+        const Segment &s = plates[p].segment();
+        plates[p].gap = box_around(s, radius).gap(grid.box());
+        if (plates[p].gap > 0)
+            continue;
+        near_segments.push_back(s);
+        near_plates.push_back(static_cast<int32_t>(p));
+    }
+    for (std::size_t k = 0; k < near_plates.size(); ++k) {
+        const Segment &s = near_segments[k];
+        double low = INFINITY, high = -INFINITY, near = INFINITY;
+        for (double bx : {grid.box().x_min, grid.box().x_max})
+            for (double by : {grid.box().y_min, grid.box().y_max}) {
+                low = std::min(low, s.along({bx, by}));
+                high = std::max(high, s.along({bx, by}));
+                near = std::min(near, s.distance({bx, by}));
+            }
+        if (near > radius)
+            continue;
+        const auto cells = static_cast<int64_t>(std::ceil(s.length / spacing - 1e-9));
+        const int64_t from = std::max(-layers, static_cast<int64_t>(std::floor((low - radius) / spacing)));
+        const int64_t to = std::min(cells + layers, static_cast<int64_t>(std::ceil((high + radius) / spacing)));
+        for (int64_t layer = 0; layer < layers; ++layer)
+            for (int64_t cell = from; cell < to; ++cell) {
+                const double along = (static_cast<double>(cell) + 0.5) * spacing;
+                const double depth = (static_cast<double>(layer) + 0.5) * spacing;
+                const Vector at = s.origin + along * s.tangent - depth * s.normal;
+                candidates_.push_back({static_cast<int32_t>(k), along, depth, at.x(), at.y(), 0});
+            }
+    }
+
+    // Calls seen(i) for the particles that see a candidate.
+    const double allowed = penetration_allowed * spacing;
+    const auto visit = [&](const Candidate &ghost, const auto &seen) {
+        const Segment &own = near_segments[ghost.plate];
+        const Vector at(ghost.x, ghost.y);
+        grid.for_each_run(ghost.x, ghost.y, radius, [&](int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end; ++i) {
+                const double dx = particles.x[i] - ghost.x, dy = particles.y[i] - ghost.y;
+                if (dx * dx + dy * dy >= radius * radius)
+                    continue;
+                Vector from(particles.x[i], particles.y[i]);
+                const double d = own.distance(from);
+                if (d <= 0) {
+                    if (d < -allowed || !own.covers(own.along(from), tolerance))
+                        continue;
+                    from += (tolerance - d) * own.normal;
+                }
+                const double own_fraction = crossing(own, from, at, tolerance);
+                if (own_fraction < 0)
+                    continue;
+                bool hidden = false;
+                for (std::size_t q = 0; q < near_segments.size() && !hidden; ++q) {
+                    if (static_cast<int32_t>(q) == ghost.plate)
+                        continue;
+                    const double fraction = crossing(near_segments[q], from, at, tolerance);
+                    hidden = fraction >= 0 && fraction < own_fraction - 1e-9;
+                }
+                if (!hidden)
+                    seen(i);
+            }
+        });
+    };
+    const auto candidate_count = static_cast<int64_t>(candidates_.size());
+    for_each_block(threads, candidate_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k)
+            visit(candidates_[k], [&](int64_t) { ++candidates_[k].neighbors; });
+    });
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                                     [](const Candidate &candidate) { return candidate.neighbors == 0; }),
+                      candidates_.end());
+
+    ghost_count = static_cast<int64_t>(candidates_.size());
+    ghost_plate.resize(ghost_count);
+    for (Field<double> *field : {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx,
+                                 &ghost_axy, &ghost_ayy})
+        field->resize(ghost_count);
+    particles_of_ghost.start.resize(ghost_count + 1);
+    particles_of_ghost.start[0] = 0;
+    for (int64_t k = 0; k < ghost_count; ++k) {
+        ghost_plate[k] = near_plates[candidates_[k].plate];
+        ghost_along[k] = candidates_[k].along;
+        ghost_depth[k] = candidates_[k].depth;
+        ghost_x[k] = candidates_[k].x;
+        ghost_y[k] = candidates_[k].y;
+        particles_of_ghost.start[k + 1] = particles_of_ghost.start[k] + candidates_[k].neighbors;
+    }
+    const int64_t pairs = particles_of_ghost.start[ghost_count];
+    particles_of_ghost.index.resize(pairs);
+    for_each_block(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k) {
+            int32_t *next = particles_of_ghost.index.data() + particles_of_ghost.start[k];
+            visit(candidates_[k], [&](int64_t i) { *next++ = static_cast<int32_t>(i); });
+        }
+    });
+
+    // The transposed list: ghosts of each particle, in ghost order and so plate by plate.
+    fill_.assign(n + 1, 0);
+    for (int64_t k = 0; k < pairs; ++k)
+        ++fill_[particles_of_ghost.index[k] + 1];
+    std::partial_sum(fill_.begin(), fill_.end(), fill_.begin());
+    ghost_of_contact.resize(pairs);
+    for (int64_t k = 0; k < ghost_count; ++k)
+        for (int64_t e = particles_of_ghost.start[k]; e < particles_of_ghost.start[k + 1]; ++e)
+            ghost_of_contact[fill_[particles_of_ghost.index[e]]++] = static_cast<int32_t>(k);
+    contacts.clear();
+    contact_start.resize(n + 1);
+    int64_t entry = 0;
+    for (int64_t i = 0; i < n; ++i) {
+        contact_start[i] = static_cast<int32_t>(contacts.size());
+        while (entry < fill_[i]) { // fill_[i] has become the end of row i
+            const int32_t plate = ghost_plate[ghost_of_contact[entry]];
+            const int64_t begin = entry;
+            while (entry < fill_[i] && ghost_plate[ghost_of_contact[entry]] == plate)
+                ++entry;
+            contacts.push_back({static_cast<int32_t>(i), plate, begin, entry, 0, 0, 0, 0});
+        }
+    }
+    contact_start[n] = static_cast<int32_t>(contacts.size());
+}
+
+void Walls::place_ghosts(int threads) {
+    for_each_block(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k) {
+            const Segment &s = plates[ghost_plate[k]].segment();
+            const Vector at = s.origin + ghost_along[k] * s.tangent - ghost_depth[k] * s.normal;
+            ghost_x[k] = at.x();
+            ghost_y[k] = at.y();
+        }
+    });
+}
+
+} // namespace gp

@@ -1,0 +1,99 @@
+// Plates: their motion, the ghost particles that stand for their bodies, and the loads on them.
+//
+// A ghost exists only while a particle can see it: on the lattice of the spacing behind the plate's wetted line (extended
+// past its ends to fill corners), within the horizon of a particle from which the straight way to the ghost passes
+// through this plate and no other before it. So each point behind a corner belongs to exactly one plate, and a thin
+// gate hides what is behind it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "neighbors.hpp"
+#include "particles.hpp"
+#include "scene.hpp"
+
+namespace gp {
+
+// A plate in motion.
+class Plate {
+public:
+    explicit Plate(const PlateSpec &spec) : spec_(&spec), driven_from_(Vector::Zero()), driven_velocity_(Vector::Zero()) {}
+
+    Vector displacement(double time) const;
+    // The host drives the plate from now on.
+    void drive(double time, const Vector &velocity);
+    // Can it still move after `time` by its own motion?
+    bool moves_after(double time) const;
+    // Displacement at `time`, and the mean velocity of the step that follows.
+    void place(double time, double dt);
+
+    const PlateSpec &spec() const { return *spec_; }
+    const Segment &segment() const { return placed_; } // where place() put it
+    const Vector &velocity() const { return velocity_; }
+
+    Vector force = Vector::Zero();   // N/m, of the material on the plate over the last step
+    double torque = 0;               // N, about end 0
+    Vector impulse = Vector::Zero(); // N s/m, since the start
+    double gap = 0;                  // m, by which plate and material are out of each other's reach at least
+
+private:
+    const PlateSpec *spec_;
+    bool driven_ = false;
+    double driven_since_ = 0;
+    Vector driven_from_, driven_velocity_;
+    Segment placed_ = spec_->segment;
+    Vector velocity_ = Vector::Zero();
+};
+
+// The ghosts that a particle sees of one plate.
+struct Contact {
+    int32_t particle, plate;
+    int64_t begin, end;          // in Walls::ghost_of_contact
+    double force_x, force_y;     // N/m3: force density on the particle
+    double power;                // W/m3: of that force on the particle
+    double ghost_power;          // W/m3: the ghosts' share of sigma : L
+};
+
+struct Walls {
+    std::vector<Plate> plates;
+
+    // Ghosts in reach of material.
+    int64_t ghost_count = 0;
+    Field<int32_t> ghost_plate;
+    Field<double> ghost_along, ghost_depth;    // m, in the plate's frame: from end 0, and behind the wetted line
+    Field<double> ghost_x, ghost_y;            // m
+    Field<double> ghost_vx, ghost_vy;          // m/s, extrapolated
+    Field<double> ghost_axx, ghost_axy, ghost_ayy; // stress over the full-lattice shape tensor, N/m4 per unit of w r
+
+    NeighborList particles_of_ghost;           // (close_count unused)
+    Field<int32_t> ghost_of_contact;           // rows of contacts
+    Field<int32_t> contact_start;              // contacts of particle i: contact_start[i] .. contact_start[i + 1]
+    std::vector<Contact> contacts;             // ordered by particle, then plate
+
+    bool in_reach() const { return !contacts.empty(); }
+    int64_t bytes() const;
+
+    // Plates with material right behind them: pairs of particles do not interact through these.
+    std::vector<Segment> barriers(const Particles &particles, const CellGrid &grid, double radius) const;
+
+    // Finds ghosts and contacts within `radius` of the sorted particles.
+    void find_contacts(const Particles &particles, const CellGrid &grid, double radius, double spacing, int threads);
+
+    // Moves the ghosts along with their plates.
+    void place_ghosts(int threads);
+
+    // Particles within `margin` of a plate's wetted line, on either side: a scene drawn wrongly.
+    int64_t count_overlapping(const Particles &particles, double margin) const;
+
+private:
+    struct Candidate {
+        int32_t plate;
+        double along, depth, x, y;
+        int64_t neighbors;
+    };
+    std::vector<Candidate> candidates_;
+    Field<int32_t> fill_;
+};
+
+} // namespace gp

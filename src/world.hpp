@@ -1,0 +1,85 @@
+// Everything that the stages of a time step work on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "neighbors.hpp"
+#include "particles.hpp"
+#include "scene.hpp"
+#include "walls.hpp"
+
+namespace gp {
+
+struct Clock {
+    double time = 0;
+    int64_t step = 0;
+    double dt = 0;        // of the last step, or of the one under way
+    double time_left = 0; // until the end that the host asked for; 0: none
+};
+
+// Energies in J per metre of depth.
+struct Ledger {
+    double initial = 0;          // kinetic + potential + elastic at the start
+    double reference_height = 0; // m along -g, where the potential is zero
+    double dissipated = 0;       // all of it
+    double penalty = 0;          // the part of the zero-energy penalty
+    double walls = 0;            // the part lost between ghosts and plates
+    double diffusion = 0;        // the part of density diffusion
+    double bulk = 0;             // the part of the bulk viscosity
+    double collisions = 0;       // the part of the collision safeguard
+    double plate_work = 0;       // done by the material on the plates
+    double largest_kinetic = 0;
+};
+
+// Sums of one step over one block of particles; a cache line each.
+struct alignas(64) BlockSums {
+    double plastic = 0;        // J/m, dissipated by yielding
+    double bulk = 0;           // J/m, dissipated by the bulk viscosity
+    double diffused = 0;       // J/m, lost by density diffusion
+    double total_power = 0;    // W/m, of all internal and wall forces
+    double internal_power = 0; // W/m, sum of V sigma:L
+    double acceleration2 = 0;  // m2/s4, sum
+    double collision_loss = 0; // J/m
+    int64_t collisions = 0;    // counted from both sides
+    double kinetic = 0;        // J/m
+};
+
+// Extremes of the velocities of one block, for the time step and the neighbour lists.
+struct alignas(64) BlockRange {
+    double u_min, u_max, v_min, v_max;
+};
+
+struct World {
+    const Scene *scene = nullptr;
+    Constants constants;
+    int threads = 1;
+
+    Particles particles;
+    CellGrid grid;
+    NeighborList neighbors;
+    Walls walls;
+    Clock clock;
+    Ledger ledger;
+
+    // Neighbour lists are good while particles (and plates) have moved by less than the skin against each other.
+    bool lists_valid = false;
+    double skin = 0;     // m
+    double shifted = 0;  // m, bound on the relative shift since the lists were made
+    double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
+    double fastest = 0;       // m/s, bound on any particle's speed
+
+    std::vector<BlockSums> sums;
+    std::vector<BlockRange> ranges;
+    Field<uint8_t> colliding; // partners of each particle in this step's collisions
+    double plastic_power = 0; // W/m, of the last step
+    double rms_acceleration = 0;
+    int64_t collisions = 0;
+
+    const ReturnMap &map_of(int64_t i) const { return material_of(i).map; }
+    const MaterialConstants &material_of(int64_t i) const {
+        return constants.materials[constants.body_material[particles.column[i]]];
+    }
+};
+
+} // namespace gp

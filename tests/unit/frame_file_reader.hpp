@@ -1,0 +1,255 @@
+// For frame_file_test.cpp: sample values, and readers that compare result files with them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <hdf5.h>
+
+#include "io/frame_file.hpp"
+
+namespace frame_file_test {
+
+using gp::io::FrameField;
+using gp::io::FrameFile;
+using gp::io::FrameHeader;
+
+inline const std::vector<FrameField> fields = {{"id", 1, true, true, nullptr},
+                                               {"position", 2, false, false, "m"},
+                                               {"velocity", 2, false, false, "m s-1"},
+                                               {"pressure", 1, false, false, "Pa"},
+                                               {"column", 1, true, true, ""}};
+
+// Component c (position 0 and 1, velocity 2 and 3, pressure 4) of particle k in a frame.
+inline double sample(int c, int64_t frame, int64_t k) {
+    if (c == 4 && k == 0)
+        return std::numeric_limits<double>::denorm_min();
+    if (c == 4 && k == 1)
+        return -0.0;
+    return std::sin(static_cast<double>(k + 1) * (c + 1) + 0.1 * static_cast<double>(frame)) / 3;
+}
+
+inline double sample_time(int64_t frame) {
+    return static_cast<double>(frame) / 3;
+}
+
+// A result file with sample values.
+class SampleFile {
+public:
+    SampleFile(const std::string &path, int64_t n, int compression = 4, bool single = false)
+        : n_(static_cast<size_t>(n)) {
+        std::vector<double> id(n_), column(n_);
+        for (size_t k = 0; k < n_; ++k) {
+            id[k] = static_cast<double>(k);
+            column[k] = static_cast<double>(k % 3);
+        }
+        const FrameHeader header{n, 0.0025, {0, -9.81}, false, "1.2.3", {{"cfl", 0.25}, {"spacing", 0.5}}};
+        file = std::make_unique<FrameFile>(path, header, fields, std::vector<const double *>{id.data(), column.data()},
+                                           compression, single);
+    }
+    void write() {
+        const int64_t t = file->frames();
+        std::vector<std::vector<double>> values(5, std::vector<double>(n_));
+        std::vector<const double *> components;
+        for (int c = 0; c < 5; ++c) {
+            for (size_t k = 0; k < n_; ++k)
+                values[static_cast<size_t>(c)][k] = sample(c, t, static_cast<int64_t>(k));
+            components.push_back(values[static_cast<size_t>(c)].data());
+        }
+        file->write(10 * t, sample_time(t), components);
+    }
+    void write(int frames) {
+        while (frames-- > 0)
+            write();
+    }
+    std::unique_ptr<FrameFile> file;
+
+private:
+    size_t n_;
+};
+
+// Reads with HDF5's own driver.
+class Reader {
+public:
+    explicit Reader(const std::string &path) : file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
+    ~Reader() { file >= 0 && H5Fclose(file) >= 0; }
+
+    template <class T> std::vector<T> read(const std::string &name, hid_t type) const {
+        std::vector<T> values;
+        const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT), space = H5Dget_space(dataset);
+        values.resize(static_cast<size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
+        if (!values.empty() && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+            values.clear();
+        H5Sclose(space);
+        H5Dclose(dataset);
+        return values;
+    }
+    std::vector<double> numbers(const std::string &name) const { return read<double>(name, H5T_NATIVE_DOUBLE); }
+    std::vector<int64_t> integers(const std::string &name) const { return read<int64_t>(name, H5T_NATIVE_INT64); }
+
+    std::string shape(const std::string &name) const {
+        hid_t dataset = H5I_INVALID_HID;
+        H5E_BEGIN_TRY {
+            dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+        }
+        H5E_END_TRY
+        if (dataset < 0)
+            return "missing";
+        const hid_t space = H5Dget_space(dataset);
+        hsize_t size[3] = {0, 0, 0};
+        std::string text;
+        for (int k = 0, rank = H5Sget_simple_extent_dims(space, size, nullptr); k < rank; ++k)
+            text += (k > 0 ? " " : "") + std::to_string(size[k]);
+        H5Sclose(space);
+        H5Dclose(dataset);
+        return text;
+    }
+
+    std::string stored_type(const std::string &name) const {
+        const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT), type = H5Dget_type(dataset);
+        const std::map<hid_t, std::string> known = {
+            {H5T_IEEE_F64LE, "f64"}, {H5T_IEEE_F32LE, "f32"}, {H5T_STD_I64LE, "i64"}};
+        std::string text = "other";
+        for (const auto &[id, label] : known)
+            text = H5Tequal(type, id) > 0 ? label : text;
+        H5Tclose(type);
+        H5Dclose(dataset);
+        return text;
+    }
+
+    // The elements of an array are separated by blanks.
+    std::string text_attribute(const std::string &object, const std::string &name) const {
+        const hid_t attribute = H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t type = H5Aget_type(attribute);
+        const size_t length = H5Tget_size(type);
+        std::string raw(static_cast<size_t>(H5Aget_storage_size(attribute)), '\0'), text;
+        H5Aread(attribute, type, &raw[0]);
+        for (size_t k = 0; k < raw.size(); k += length)
+            text += (k > 0 ? " " : "") + std::string(raw.substr(k, length).c_str());
+        H5Tclose(type);
+        H5Aclose(attribute);
+        return text;
+    }
+
+    std::vector<double> attribute(const std::string &object, const std::string &name) const {
+        const hid_t attribute = H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t space = H5Aget_space(attribute);
+        std::vector<double> values(static_cast<size_t>(H5Sget_simple_extent_npoints(space)));
+        H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data());
+        H5Sclose(space);
+        H5Aclose(attribute);
+        return values;
+    }
+
+    haddr_t address(const std::string &name) const {
+        H5O_info_t info;
+        return H5Oget_info_by_name(file, name.c_str(), &info, H5P_DEFAULT) >= 0 ? info.addr : HADDR_UNDEF;
+    }
+
+    hid_t file;
+};
+
+inline std::string view(int64_t frame, const std::string &field) {
+    char text[80];
+    std::snprintf(text, sizeof text, "/frames/%06d/%06d/%s", static_cast<int>(frame - frame % 256),
+                  static_cast<int>(frame), field.c_str());
+    return text;
+}
+
+// Counts the frames by the times, as a reader does, and compares all of them with the samples; "" or what is wrong.
+// view_step: how many frames to go on from one compared view to the next.
+inline std::string check_frames(const std::string &path, int64_t n, int64_t at_least, int64_t *frames,
+                                bool single = false, int64_t view_step = 1) {
+    const Reader r(path);
+    if (r.file < 0)
+        return "cannot be opened";
+    const std::vector<double> time = r.numbers("/particles/all/position/time");
+    const std::vector<int64_t> step = r.integers("/particles/all/position/step");
+    *frames = static_cast<int64_t>(time.size());
+    if (*frames < at_least || step.size() < time.size())
+        return "only " + std::to_string(*frames) + " of " + std::to_string(at_least) + " frames";
+    const auto same = [&](double stored, double expected) {
+        return stored == (single ? static_cast<double>(static_cast<float>(expected)) : expected);
+    };
+    for (int64_t t = 0; t < *frames; ++t)
+        if (time[static_cast<size_t>(t)] != sample_time(t) || step[static_cast<size_t>(t)] != 10 * t)
+            return "wrong time or step " + std::to_string(t);
+    int c = 0;
+    for (const FrameField &field : fields) {
+        if (field.constant)
+            continue;
+        const int64_t width = field.components == 1 ? 1 : 3;
+        const std::string name = std::string("/particles/all/") + field.name + "/value";
+        const std::vector<double> all = r.numbers(name);
+        if (all.size() < static_cast<size_t>(*frames * n * width))
+            return name + " has " + r.shape(name);
+        for (int64_t t = 0; t < *frames; ++t) {
+            const bool look = t % view_step == 0 || t + 2 >= *frames;
+            const std::vector<double> one = look ? r.numbers(view(t, field.name)) : std::vector<double>();
+            if (look && one.size() != static_cast<size_t>(n * width))
+                return view(t, field.name) + " cannot be read";
+            for (int64_t j = 0; j < n * width; ++j) {
+                const double value = all[static_cast<size_t>(t * n * width + j)];
+                const double expected = j % width == 2 ? 0 : sample(c + static_cast<int>(j % width), t, j / width);
+                if (!same(value, expected) || (look && one[static_cast<size_t>(j)] != value))
+                    return "wrong value in frame " + std::to_string(t) + " of " + field.name;
+            }
+        }
+        c += field.components;
+    }
+    return "";
+}
+
+inline std::string contents(const std::string &path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+// "" if the XDMF file is well-formed, lists `frames` frames, and every array in it exists with the size it tells.
+inline std::string check_xdmf(const std::string &path, int64_t frames) {
+    const std::string text = contents(path), size = "Dimensions=\"";
+    const Reader r(std::filesystem::path(path).replace_extension(".h5").string());
+    const std::string base = std::filesystem::path(path).stem().string() + ".h5:";
+    std::vector<std::string> open;
+    std::map<std::string, int64_t> count;
+    for (size_t at = 0, next = 0; at < text.size(); at = next) {
+        const size_t end = text.find('>', at);
+        next = std::min(text.find('<', at + 1), text.size());
+        if (text[at] != '<' || end >= next)
+            return "not XML at byte " + std::to_string(at);
+        const std::string tag = text.substr(at + 1, end - at - 1), name = tag.substr(0, tag.find_first_of(" /", 1));
+        if (std::count(tag.begin(), tag.end(), '"') != 2 * std::count(tag.begin(), tag.end(), '='))
+            return "wrong attributes in <" + tag + ">";
+        if (name[0] == '/') {
+            if (open.empty() || "/" + open.back() != name)
+                return "unexpected <" + tag + ">";
+            open.pop_back();
+        } else if (name[0] != '?' && tag.back() != '/') {
+            open.push_back(name);
+        }
+        ++count[name];
+        if (name == "DataItem") {
+            const size_t from = tag.find(size) + size.size();
+            const std::string told = tag.substr(from, tag.find('"', from) - from);
+            const std::string array = text.substr(end + 1, next - end - 1);
+            if (array.compare(0, base.size(), base) != 0 || r.shape(array.substr(base.size())) != told)
+                return array + " does not have the size " + told;
+        }
+    }
+    if (text.empty() || !open.empty())
+        return "ends too early";
+    return count["Time"] == frames ? "" : "lists " + std::to_string(count["Time"]) + " frames";
+}
+
+} // namespace frame_file_test
