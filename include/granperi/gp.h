@@ -184,7 +184,9 @@ typedef struct gp_plate {
     uint32_t struct_size;
     double x0, y0, x1, y1;  /* m, ends of the wetted line. The plate's body is on the left of the way from end 0 to
                                end 1, material is on the right; the plate acts on material on that side only, so a
-                               thin plate wetted on both sides is two plates back to back. The two ends differ */
+                               plate wetted on both sides is two plates back to back, best a horizon apart: nearer
+                               to each other, a floor under both sees the mean of both sides at their foot. The two
+                               ends differ */
     int32_t friction;       /* GP_WALL_... [GP_WALL_NO_SLIP] */
     double wall_mu;         /* Coulomb coefficient, for GP_WALL_COULOMB only; >= 0 [0] */
     double vx, vy;          /* m/s, constant velocity; not with a table [0, 0] */

@@ -10,7 +10,7 @@ namespace {
 
 struct View {
     const double *x, *y, *vx, *vy, *stressed;
-    const double *cxx, *cxy, *cyx, *cyy, *lxx, *lxy, *lyx, *lyy;
+    const double *cxx, *cxy, *cyx, *cyy;
     const int64_t *start;
     const int32_t *index;
     double inverse_radius, penalty;
@@ -20,8 +20,10 @@ struct Force {
     double x, y; // N/m3
 };
 
-// sum_j w (A_i + A_j) r_ij, and with the penalty also sum_j kappa w (u_j - u_i - (L_i + L_j) r_ij / 2) between stressed
-// particles: the velocity that L does not see. C = A - kappa L / 2 carries both of a neighbour's tensors at once.
+// sum_j w (A_i + A_j) r_ij, and with the penalty on the velocity that the gradient does not see, z_ij = u_j - u_i - L_i r_ij,
+// also kappa/2 sum_j w (z_ij - z_ji), each particle's half only where it is stressed. Since sum_j w z_ij (x) r_ij = 0 for
+// the neighbours that L_i is made of, the penalty's power is -kappa/2 sum w |z|^2: it never drives (after Silling 2017).
+// C = A - kappa L / 2 carries both of a neighbour's tensors at once.
 template <bool Penalty> GP_INLINE Force particle_force(const View &v, int64_t i) {
     const int32_t *__restrict row = v.index + v.start[i];
     const int64_t n = v.start[i + 1] - v.start[i];
@@ -30,8 +32,9 @@ template <bool Penalty> GP_INLINE Force particle_force(const View &v, int64_t i)
     const double *__restrict cxx = v.cxx, *__restrict cxy = v.cxy, *__restrict cyx = v.cyx, *__restrict cyy = v.cyy;
     const double *__restrict stressed = v.stressed;
     const double inverse_radius = v.inverse_radius;
-    double wx = 0, wy = 0, tx = 0, ty = 0, pw = 0, px = 0, py = 0, pu = 0, pv = 0;
-#pragma omp simd reduction(+ : wx, wy, tx, ty, pw, px, py, pu, pv)
+    const double own = Penalty ? stressed[i] : 0.0;
+    double wx = 0, wy = 0, tx = 0, ty = 0, pw = 0, pu = 0, pv = 0;
+#pragma omp simd reduction(+ : wx, wy, tx, ty, pw, pu, pv)
     for (int64_t k = 0; k < n; ++k) {
         const int32_t j = row[k];
         const double dx = x[j] - xi, dy = y[j] - yi;
@@ -42,35 +45,18 @@ template <bool Penalty> GP_INLINE Force particle_force(const View &v, int64_t i)
         tx += cxx[j] * wdx + cxy[j] * wdy;
         ty += cyx[j] * wdx + cyy[j] * wdy;
         if (Penalty) {
-            const double share = w * stressed[j];
+            const double share = w * (own + stressed[j]);
             pw += share;
-            px += stressed[j] * wdx;
-            py += stressed[j] * wdy;
             pu += share * vx[j];
             pv += share * vy[j];
         }
     }
-    if (!Penalty)
-        return {cxx[i] * wx + cxy[i] * wy + tx, cyx[i] * wx + cyy[i] * wy + ty};
-
-    const double half = 0.5 * v.penalty;
-    if (stressed[i] > 0) {
-        const double axx = cxx[i] + half * v.lxx[i], axy = cxy[i] + half * v.lxy[i];
-        const double ayx = cyx[i] + half * v.lyx[i], ayy = cyy[i] + half * v.lyy[i];
-        return {axx * wx + axy * wy + tx +
-                    v.penalty * (pu - vx[i] * pw - 0.5 * (v.lxx[i] * px + v.lxy[i] * py)),
-                ayx * wx + ayy * wy + ty +
-                    v.penalty * (pv - vy[i] * pw - 0.5 * (v.lyx[i] * px + v.lyy[i] * py))};
+    Force f{cxx[i] * wx + cxy[i] * wy + tx, cyx[i] * wx + cyy[i] * wy + ty};
+    if (Penalty) {
+        f.x += 0.5 * v.penalty * (pu - vx[i] * pw);
+        f.y += 0.5 * v.penalty * (pv - vy[i] * pw);
     }
-    // Stress-free: only the neighbours' stresses act, so the penalty's part of C_j is taken out again.
-    for (int64_t k = 0; k < n; ++k) {
-        const int32_t j = row[k];
-        const double dx = x[j] - xi, dy = y[j] - yi;
-        const double share = half * stressed[j] * weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
-        tx += share * (v.lxx[j] * dx + v.lxy[j] * dy);
-        ty += share * (v.lyx[j] * dx + v.lyy[j] * dy);
-    }
-    return {tx, ty};
+    return f;
 }
 
 struct WallView {
@@ -79,14 +65,14 @@ struct WallView {
     double inverse_radius;
 };
 
-// Force density of one plate's ghosts on a particle with A = sigma K^-1, and the ghosts' share of sigma : L, that is
-// sum w (u_g - u_i) . A r.
-GP_INLINE void contact_force(const WallView &v, const Tensor &a, Contact &contact) {
+// Force density of one plate's ghosts on a particle with A = sigma K^-1, the particle's half of the penalty towards them
+// included, and the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r.
+GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &l, double half_penalty, Contact &contact) {
     const int64_t i = contact.particle;
     const double xi = v.x[i], yi = v.y[i];
-    double wx = 0, wy = 0, tx = 0, ty = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
+    double wx = 0, wy = 0, tx = 0, ty = 0, gu = 0, gv = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
     const double ui = v.vx[i], vi = v.vy[i];
-#pragma omp simd reduction(+ : wx, wy, tx, ty, gxx, gxy, gyx, gyy)
+#pragma omp simd reduction(+ : wx, wy, tx, ty, gu, gv, gxx, gxy, gyx, gyy)
     for (int64_t k = contact.begin; k < contact.end; ++k) {
         const int32_t g = v.index[k];
         const double dx = v.gx[g] - xi, dy = v.gy[g] - yi;
@@ -96,13 +82,16 @@ GP_INLINE void contact_force(const WallView &v, const Tensor &a, Contact &contac
         wy += wdy;
         tx += v.axx[g] * wdx + v.axy[g] * wdy;
         ty += v.axy[g] * wdx + v.ayy[g] * wdy;
-        gxx += (v.gvx[g] - ui) * wdx;
-        gxy += (v.gvx[g] - ui) * wdy;
-        gyx += (v.gvy[g] - vi) * wdx;
-        gyy += (v.gvy[g] - vi) * wdy;
+        const double du = v.gvx[g] - ui, dv = v.gvy[g] - vi;
+        gu += w * du;
+        gv += w * dv;
+        gxx += du * wdx;
+        gxy += du * wdy;
+        gyx += dv * wdx;
+        gyy += dv * wdy;
     }
-    contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx;
-    contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty;
+    contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx + half_penalty * (gu - l(0, 0) * wx - l(0, 1) * wy);
+    contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty + half_penalty * (gv - l(1, 0) * wx - l(1, 1) * wy);
     contact.ghost_power = a(0, 0) * gxx + a(0, 1) * gxy + a(1, 0) * gyx + a(1, 1) * gyy;
 }
 
@@ -130,20 +119,24 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
         const int64_t i = contact.particle;
         Tensor a;
         a << p.cxx[i], p.cxy[i], p.cyx[i], p.cyy[i];
-        if (half > 0 && p.stressed[i] > 0) {
-            Tensor l;
-            l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
-            a += half * l;
-        }
+        const double own_half = half > 0 ? half * p.stressed[i] : 0.0;
+        Tensor l;
+        l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
+        a += own_half * l; // C without the penalty's part
         const Plate &plate = world.walls.plates[contact.plate];
-        contact_force(v, a, contact);
-        // A wall only pushes, and one without friction of its own has no tangential traction.
+        if (plate.spec().friction != GP_WALL_NO_SLIP) {
+            // No shear traction through the surface; the gradient leaves out the same component.
+            const Segment &s = plate.segment();
+            a -= s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
+        }
+        contact_force(v, a, l, own_half, contact);
+        // A wall only pushes.
         const Vector &n = plate.segment().normal;
-        const double normal = contact.force_x * n.x() + contact.force_y * n.y();
-        const double push = normal > 0 ? normal : 0.0;
-        const bool slips = plate.spec().friction != GP_WALL_NO_SLIP;
-        contact.force_x = slips ? push * n.x() : contact.force_x + (push - normal) * n.x();
-        contact.force_y = slips ? push * n.y() : contact.force_y + (push - normal) * n.y();
+        const double pull = contact.force_x * n.x() + contact.force_y * n.y();
+        if (pull < 0) {
+            contact.force_x -= pull * n.x();
+            contact.force_y -= pull * n.y();
+        }
         contact.power = contact.force_x * p.vx[i] + contact.force_y * p.vy[i];
     }
 }
@@ -158,8 +151,8 @@ void force(World &world) {
         plate.torque = 0;
     }
     const Constants &c = world.constants;
-    const View view{p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),  p.stressed.data(), p.cxx.data(), p.cxy.data(),
-                    p.cyx.data(), p.cyy.data(), p.lxx.data(), p.lxy.data(), p.lyx.data(),      p.lyy.data(), world.neighbors.start.data(),
+    const View view{p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),  p.stressed.data(),
+                    p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(), world.neighbors.start.data(),
                     world.neighbors.index.data(), 1.0 / c.horizon, c.penalty};
     const bool in_reach = walls.in_reach();
     if (in_reach) {

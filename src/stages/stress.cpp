@@ -5,6 +5,17 @@ namespace gp::stages {
 
 namespace {
 
+// Beside a plate along which ghosts move with the particles, the penalty towards them could drive: it is left out.
+bool touches_slip(const World &world, int64_t i) {
+    const Walls &walls = world.walls;
+    if (!walls.in_reach())
+        return false;
+    for (int32_t k = walls.contact_start[i]; k < walls.contact_start[i + 1]; ++k)
+        if (walls.plates[walls.contacts[k].plate].spec().friction != GP_WALL_NO_SLIP)
+            return true;
+    return false;
+}
+
 template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t begin, int64_t end) {
     Particles &p = world.particles;
     const double dt = world.clock.dt;
@@ -40,7 +51,7 @@ template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t be
         double cyx = axy * p.gxx[i] + ayy * p.gxy[i];
         double cyy = axy * p.gxy[i] + ayy * p.gyy[i];
         if (Penalty) {
-            const double stressed = pressure > 0 ? 1.0 : 0.0;
+            const double stressed = pressure > 0 && !touches_slip(world, i) ? 1.0 : 0.0;
             const double share = half_penalty * stressed;
             p.stressed[i] = stressed;
             cxx -= share * lxx;

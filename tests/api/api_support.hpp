@@ -15,8 +15,8 @@
 
 namespace api {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Of all the scenes here, unless they say otherwise.
 constexpr double spacing = 0.01;

@@ -42,7 +42,7 @@ const std::vector<Number> numbers = {
     {"delta", &gp_config::delta, {0, -1e-6}, {1e-9, 1}},
     {"collision_distance", &gp_config::collision_distance, {-0.1, 1.01}, {0, 0.5, 1}},
     {"zero_energy_penalty", &gp_config::zero_energy_penalty, {-0.01, 0.51}, {0, 0.5}},
-    {"density_diffusion", &gp_config::density_diffusion, {-0.01, 0.21}, {0, 0.2}},
+    {"density_diffusion", &gp_config::density_diffusion, {-0.01, 1.01}, {0, 1}},
     {"bulk_viscosity", &gp_config::bulk_viscosity, {-0.01, 1.01}, {0, 1}},
     {"channel_width", &gp_config::channel_width, {-0.1}, {0}},
     {"channel_friction", &gp_config::channel_friction, {-0.1, 0.3}, {0}}, // without width
@@ -81,7 +81,7 @@ TEST(Config, DefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(c.delta, 1e-6);
     EXPECT_EQ(c.collision_distance, 0.9);
     EXPECT_EQ(c.zero_energy_penalty, 0.02);
-    EXPECT_EQ(c.density_diffusion, 0);
+    EXPECT_EQ(c.density_diffusion, 0.2);
     EXPECT_EQ(c.bulk_viscosity, 0.2);
     EXPECT_EQ(c.channel_width, 0);
     EXPECT_EQ(c.channel_friction, 0);
@@ -97,7 +97,7 @@ TEST(Config, DefaultsAreTheDocumentedOnes) {
 TEST(Config, EveryNumberIsChecked) {
     for (const Number &field : numbers) {
         std::vector<double> bad = field.bad;
-        bad.insert(bad.end(), {nan, -nan, inf, -inf});
+        bad.insert(bad.end(), {not_a_number, -not_a_number, infinite, -infinite});
         for (const double value : bad) {
             SCOPED_TRACE(testing::Message() << field.name << " = " << value);
             gp_config config = make_config();
@@ -134,10 +134,11 @@ TEST(Config, ThreadsNeedOpenMP) {
     for (const int32_t threads : {2, 1024}) {
         gp_config config = make_config();
         config.threads = threads;
-        if (has("openmp"))
+        if (has("openmp")) {
             EXPECT_EQ(create(config), GP_OK) << gp_last_error();
-        else
+        } else {
             EXPECT_FAILS(create(config), GP_E_UNSUPPORTED, "threads");
+        }
     }
 }
 

@@ -87,8 +87,9 @@ TEST(Callbacks, MayReadDriveAndWriteButNothingElse) {
     add_collapse(sim, 4, 4);
     sim.add(make_column(2, 2, 1, 0));
     const bool hdf5 = has("hdf5");
-    if (hdf5)
+    if (hdf5) {
         ASSERT_EQ(gp_output_open(sim, (testing::TempDir() + "granperi_callback.h5").c_str(), nullptr), GP_OK);
+    }
     Callback callback;
     callback.body = [&](gp_sim *s) {
         EXPECT_EQ(s, sim.handle);
@@ -127,10 +128,11 @@ TEST(Callbacks, MayReadDriveAndWriteButNothingElse) {
         int64_t n;
         EXPECT_EQ(gp_get_plan(s, 0, nullptr, &n), GP_OK);
         EXPECT_EQ(gp_set_plate_velocity(s, 2, 0, 3), GP_OK);
-        if (hdf5)
+        if (hdf5) {
             EXPECT_EQ(gp_output_write(s), GP_OK) << gp_last_error();
-        else
+        } else {
             EXPECT_EQ(gp_output_write(s), GP_E_STATE);
+        }
         return 0;
     };
     ASSERT_EQ(callback.set(sim), GP_OK);
@@ -156,8 +158,9 @@ TEST(Callbacks, ThatOnlyReadDoNotChangeTheRun) {
             state_of(s);
             return 0;
         };
-        if (k == 1)
+        if (k == 1) {
             ASSERT_EQ(callback.set(sim), GP_OK);
+        }
         ASSERT_EQ(gp_run(sim, 0.02), GP_OK);
         bits[k] = snapshot(sim, 3);
     }
@@ -296,7 +299,7 @@ TEST(Logs, TellOfRoundedColumns) {
     EXPECT_EQ(log.lines[0].first, GP_LOG_WARNING);
     EXPECT_NE(log.lines[0].second.find("rounded"), std::string::npos) << log.lines[0].second;
     EXPECT_NE(log.lines[0].second.find("0.033"), std::string::npos) << log.lines[0].second;
-    column.width = nan;
+    column.width = not_a_number;
     EXPECT_EQ(gp_add_column(sim, &column, nullptr), GP_E_ARGUMENT);
     EXPECT_EQ(log.lines.size(), 1u) << "errors are told by the status";
     ASSERT_EQ(gp_set_log(sim, nullptr, nullptr), GP_OK);

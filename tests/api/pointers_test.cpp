@@ -123,11 +123,11 @@ TEST(Pointers, HandlesIdsAndCountsAreNullOrZeroAfterAnError) {
         EXPECT_EQ(id, 0);
     };
     gp_material material = make_material();
-    material.i0 = nan;
+    material.i0 = not_a_number;
     gp_column column = make_column(2, 2);
-    column.width = nan;
+    column.width = not_a_number;
     gp_plate plate = make_floor();
-    plate.x0 = nan;
+    plate.x0 = not_a_number;
     for (gp_sim *handle : {sim.handle, static_cast<gp_sim *>(nullptr)}) {
         expect_id_zero([&](int32_t *id) { return gp_add_material(handle, &material, id); });
         expect_id_zero([&](int32_t *id) { return gp_add_column(handle, &column, id); });
@@ -175,10 +175,10 @@ TEST(Errors, ChangeNothing) {
         gp_material material = make_material();
         material.mu_2 = 0;
         gp_column column = make_column(2, 2);
-        column.vx = nan;
+        column.vx = not_a_number;
         gp_plate plate = make_floor();
         plate.wall_mu = 1;
-        const double x[2] = {0, nan}, y[2] = {0, 0};
+        const double x[2] = {0, not_a_number}, y[2] = {0, 0};
         double out[3] = {7, 7, 7};
         gp_state state{};
         gp_particles particles{};
@@ -192,11 +192,11 @@ TEST(Errors, ChangeNothing) {
                                       gp_add_particles(sim, 0, 2, x, y, nullptr, nullptr, nullptr),
                                       gp_add_plate(sim, &plate, nullptr),
                                       gp_set_plate_velocity(sim, 3, 0, 0),
-                                      gp_set_plate_velocity(sim, 0, nan, 0),
+                                      gp_set_plate_velocity(sim, 0, not_a_number, 0),
                                       gp_step(sim, -1),
                                       gp_run(sim, -1),
-                                      gp_run(sim, nan),
-                                      gp_run(sim, inf),
+                                      gp_run(sim, not_a_number),
+                                      gp_run(sim, infinite),
                                       gp_set_callback(sim, 0, +[](void *, gp_sim *) { return int32_t(1); }, nullptr),
                                       gp_get_particles(sim, GP_FIELD_ALL + 1, &particles),
                                       gp_copy_field(sim, GP_FIELD_POSITION, out, 3),

@@ -79,7 +79,7 @@ TEST(Run, EndInThePastIsRefusedAndNowDoesNothing) {
     const int64_t step = sim.state().step;
     const uint64_t epoch = sim.epoch();
     EXPECT_EQ(gp_run(sim, 0.01), GP_OK);
-    for (const double end : {std::nextafter(0.01, 0.0), 0.0, -1.0, nan, inf, -inf})
+    for (const double end : {std::nextafter(0.01, 0.0), 0.0, -1.0, not_a_number, infinite, -infinite})
         EXPECT_FAILS(gp_run(sim, end), GP_E_ARGUMENT, "t_end");
     EXPECT_EQ(sim.state().step, step);
     EXPECT_EQ(sim.epoch(), epoch);

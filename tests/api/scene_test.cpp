@@ -18,7 +18,7 @@ void check_numbers(const std::vector<Number<T>> &numbers, const T &valid, Add ad
     const uint64_t epoch = sim.epoch();
     for (const Number<T> &field : numbers) {
         std::vector<double> bad = field.bad;
-        bad.insert(bad.end(), {nan, inf, -inf});
+        bad.insert(bad.end(), {not_a_number, infinite, -infinite});
         for (const double value : bad) {
             SCOPED_TRACE(testing::Message() << field.name << " = " << value);
             T changed = valid;
@@ -240,7 +240,7 @@ TEST(Particles, ArgumentsAreChecked) {
     EXPECT_FAILS(gp_add_particles(sim, 0, 3, good, nullptr, nullptr, nullptr, nullptr), GP_E_ARGUMENT, "y");
     EXPECT_FAILS(gp_add_particles(sim, 0, 3, good, good, good, nullptr, nullptr), GP_E_ARGUMENT, "vy");
     EXPECT_FAILS(gp_add_particles(sim, 0, 3, good, good, nullptr, good, nullptr), GP_E_ARGUMENT, "vx");
-    for (const double value : {nan, inf, -inf}) {
+    for (const double value : {not_a_number, infinite, -infinite}) {
         const double bad[3] = {0, 0.1, value};
         EXPECT_FAILS(gp_add_particles(sim, 0, 3, bad, good, nullptr, nullptr, nullptr), GP_E_ARGUMENT, "x[2]");
         EXPECT_FAILS(gp_add_particles(sim, 0, 3, good, bad, nullptr, nullptr, nullptr), GP_E_ARGUMENT, "y[2]");
@@ -350,7 +350,7 @@ TEST(Plate, TableIsChecked) {
         (k == 0 ? plate.knot_t : k == 1 ? plate.knot_x : plate.knot_y) = nullptr;
         refuse(plate, k == 0 ? "knot_t" : k == 1 ? "knot_x" : "knot_y");
     }
-    for (const double value : {nan, inf, -inf})
+    for (const double value : {not_a_number, infinite, -infinite})
         for (const std::size_t knot : {0u, 2u}) {
             TablePlate table;
             table.t[knot] = value;
@@ -412,7 +412,7 @@ TEST(PlateVelocity, IsChecked) {
     sim.add(make_floor());
     for (const int32_t plate : {-1, 1, INT32_MAX})
         EXPECT_FAILS(gp_set_plate_velocity(sim, plate, 0, 0), GP_E_ARGUMENT, "plate");
-    for (const double value : {nan, inf, -inf}) {
+    for (const double value : {not_a_number, infinite, -infinite}) {
         EXPECT_FAILS(gp_set_plate_velocity(sim, 0, value, 0), GP_E_ARGUMENT, "vx");
         EXPECT_FAILS(gp_set_plate_velocity(sim, 0, 0, value), GP_E_ARGUMENT, "vy");
     }

@@ -1,6 +1,4 @@
 // struct_size: programs compiled against an older or a newer header.
-#include <memory>
-
 #include "api_support.hpp"
 
 using namespace api;
@@ -12,28 +10,27 @@ constexpr unsigned char guard_byte = 0xa5;
 // A struct of any size in memory of exactly that size, so that a checker of memory sees every byte too far.
 class Bytes {
 public:
-    Bytes(const void *from, std::size_t known, std::size_t size, unsigned char rest) : size_(size), data_(new char[size]) {
-        std::memset(data_.get(), rest, size);
-        std::memcpy(data_.get(), from, std::min(known, size));
+    Bytes(const void *from, std::size_t known, std::size_t size, unsigned char rest) : data_(size, static_cast<char>(rest)) {
+        data_.shrink_to_fit();
+        std::memcpy(data_.data(), from, std::min(known, size));
     }
-    template <class T> T *as() { return reinterpret_cast<T *>(data_.get()); }
+    template <class T> T *as() { return reinterpret_cast<T *>(data_.data()); }
     Bytes &say(std::size_t size) {
         const auto value = static_cast<uint32_t>(size);
-        std::memcpy(data_.get(), &value, sizeof value);
+        std::memcpy(data_.data(), &value, sizeof value);
         return *this;
     }
     void set(std::size_t at, char value) { data_[at] = value; }
     bool all(std::size_t from, unsigned char value) const {
-        for (std::size_t k = from; k < size_; ++k)
+        for (std::size_t k = from; k < data_.size(); ++k)
             if (static_cast<unsigned char>(data_[k]) != value)
                 return false;
         return true;
     }
-    std::vector<char> copy() const { return {data_.get(), data_.get() + size_}; }
+    const std::vector<char> &copy() const { return data_; }
 
 private:
-    std::size_t size_;
-    std::unique_ptr<char[]> data_;
+    std::vector<char> data_;
 };
 
 gp_status init_config(gp_config *config, size_t size) { return gp_config_init(config, size, GP_PRESET_DEFAULT); }
@@ -112,24 +109,27 @@ TEST(StructSize, LongerAndTooShortInputs) {
         return status;
     });
     Sim sim;
-    const auto checked = [&](gp_status status, int32_t id) {
-        if (status != GP_OK)
+    const auto add = [&](auto call, const auto *given) {
+        int32_t id = 99;
+        const gp_status status = call(sim, given, &id);
+        if (status != GP_OK) {
             EXPECT_EQ(id, 0);
+        }
         return status;
     };
-    int32_t id = 0;
     check_input(make_material(), "gp_material",
-                [&](const gp_material *m) { return checked(gp_add_material(sim, m, &id), id); });
+                [&](const gp_material *m) { return add(gp_add_material, m); });
     check_input(make_column(2, 2), "gp_column",
-                [&](const gp_column *c) { return checked(gp_add_column(sim, c, &id), id); });
-    check_input(make_floor(), "gp_plate", [&](const gp_plate *p) { return checked(gp_add_plate(sim, p, &id), id); });
+                [&](const gp_column *c) { return add(gp_add_column, c); });
+    check_input(make_floor(), "gp_plate", [&](const gp_plate *p) { return add(gp_add_plate, p); });
     EXPECT_EQ(sim.count(), 4 * 5) << "the refused columns were not added";
     if (!has("hdf5"))
         return;
     check_input(make_output(), "gp_output", [&](const gp_output *output) {
         const gp_status status = gp_output_open(sim, (testing::TempDir() + "granperi_struct_size.h5").c_str(), output);
-        if (status == GP_OK)
+        if (status == GP_OK) {
             EXPECT_EQ(gp_output_close(sim), GP_OK);
+        }
         return status;
     });
 }
