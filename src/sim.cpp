@@ -6,7 +6,6 @@
 
 #include "check.hpp"
 #include "diagnostics.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp {
@@ -161,44 +160,14 @@ void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
 void Sim::prepare() {
     if (world_)
         return;
-    auto world = std::make_unique<World>();
-    world->scene = &scene_;
-    world->constants = scene_.constants();
-    const int32_t threads = scene_.config().threads;
-    world->threads = threads > 0 ? threads : default_threads();
-    const Constants &c = world->constants;
-    Traits traits = traits_of(scene_, c);
-
-    Particles &p = world->particles;
-    p.volume = c.volume;
-    p.allocate(scene_.particle_count(), traits.penalty, traits.diffusion);
-    const std::vector<double> pressure = scene_.initial_pressure(c);
-    for (int64_t i = 0; i < p.count; ++i) {
-        p.id[i] = i;
-        p.column[i] = scene_.column[i];
-        p.x[i] = scene_.x[i];
-        p.y[i] = scene_.y[i];
-        p.vx[i] = scene_.vx[i];
-        p.vy[i] = scene_.vy[i];
-        p.pressure[i] = pressure[i];
-        p.density[i] = world->material_of(i).density + pressure[i] / (c.sound_speed * c.sound_speed);
-    }
-    const int64_t blocks = block_count(p.count);
-    world->sums.resize(blocks);
-    world->ranges.resize(blocks);
-    if (traits.collisions)
-        world->colliding.resize(p.count);
-    for (const PlateSpec &spec : scene_.plates()) {
-        world->walls.plates.emplace_back(spec);
-        world->walls.plates.back().place(0, c.spacing / c.wave_speed);
-    }
+    auto world = make_world(scene_);
     stages::measure_velocities(*world);
     stages::update_neighbors(*world);
     open_ledger(*world);
 
-    world_ = std::move(world);
-    traits_ = traits;
+    traits_ = traits_of(scene_, world->constants);
     stages_ = make_stages(traits_);
+    world_ = std::move(world);
 }
 
 void Sim::require_steppable() const {

@@ -65,7 +65,7 @@ int64_t Walls::bytes() const {
 namespace {
 
 // A particle this close behind the line still counts as in front of it: the contact stage is about to push it back.
-constexpr double penetration_allowed = 0.5; // dl
+constexpr double penetration_allowed = 0.25; // dl
 
 Box box_around(const Segment &s, double margin) {
     const Vector end = s.origin + s.length * s.tangent;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "neighbors.hpp"
@@ -81,5 +82,8 @@ struct World {
         return constants.materials[constants.body_material[particles.column[i]]];
     }
 };
+
+// The world of a scene before its first step: particles and plates in place, no lists yet.
+std::unique_ptr<World> make_world(const Scene &scene);
 
 } // namespace gp

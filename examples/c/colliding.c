@@ -61,7 +61,7 @@ static void print_interface(gp_sim *sim, int32_t left, int32_t right, double spa
 int main(int argc, char **argv) {
     const double gap = 0.04, reference = 0.08; /* m */
     const double grain_diameter = 0.002;       /* m */
-    double number = 1, spacing, highest, reach;
+    double number = 1, spacing, highest, reach, left_width, right_width;
     example_options options = example_defaults(40, NAN, "colliding.h5");
     const example_extra case_option = {
         "--case",
@@ -86,15 +86,19 @@ int main(int argc, char **argv) {
     highest = fmax(s->left_height, s->right_height);
     sim = example_create(&options, spacing, grain_diameter);
 
+    /* The library rounds columns to whole spacings; the gates have to follow. */
+    left_width = spacing * fmax(1, round(s->left_width / spacing));
+    right_width = spacing * fmax(1, round(s->right_width / spacing));
+
     /* The middle of the gap is at x = 0. */
-    left = add_column(sim, -gap / 2 - s->left_width, s->left_width, s->left_height);
-    right = add_column(sim, gap / 2, s->right_width, s->right_height);
+    left = add_column(sim, -gap / 2 - left_width, left_width, s->left_height);
+    right = add_column(sim, gap / 2, right_width, s->right_height);
     reach = gap / 2 + 0.08 + 4 * highest + 20 * spacing;
     example_add_floor(sim, -reach, reach);
-    example_add_gate(sim, -gap / 2 - s->left_width, EXAMPLE_MATERIAL_RIGHT, s->left_height, spacing, options.lift_time);
+    example_add_gate(sim, -gap / 2 - left_width, EXAMPLE_MATERIAL_RIGHT, s->left_height, spacing, options.lift_time);
     example_add_gate(sim, -gap / 2, EXAMPLE_MATERIAL_LEFT, s->left_height, spacing, options.lift_time);
     example_add_gate(sim, gap / 2, EXAMPLE_MATERIAL_RIGHT, s->right_height, spacing, options.lift_time);
-    example_add_gate(sim, gap / 2 + s->right_width, EXAMPLE_MATERIAL_LEFT, s->right_height, spacing, options.lift_time);
+    example_add_gate(sim, gap / 2 + right_width, EXAMPLE_MATERIAL_LEFT, s->right_height, spacing, options.lift_time);
 
     example_run(sim, &options);
     print_interface(sim, left, right, spacing, highest);

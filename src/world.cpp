@@ -1,0 +1,41 @@
+#include "world.hpp"
+
+#include "parallel.hpp"
+
+namespace gp {
+
+std::unique_ptr<World> make_world(const Scene &scene) {
+    auto world = std::make_unique<World>();
+    world->scene = &scene;
+    world->constants = scene.constants();
+    const int32_t threads = scene.config().threads;
+    world->threads = threads > 0 ? threads : default_threads();
+    const Constants &c = world->constants;
+
+    Particles &p = world->particles;
+    p.volume = c.volume;
+    p.allocate(scene.particle_count(), c.penalty > 0, scene.config().density_diffusion > 0);
+    const std::vector<double> pressure = scene.initial_pressure(c);
+    for (int64_t i = 0; i < p.count; ++i) {
+        p.id[i] = i;
+        p.column[i] = scene.column[i];
+        p.x[i] = scene.x[i];
+        p.y[i] = scene.y[i];
+        p.vx[i] = scene.vx[i];
+        p.vy[i] = scene.vy[i];
+        p.pressure[i] = pressure[i];
+        p.density[i] = world->material_of(i).density + pressure[i] / (c.sound_speed * c.sound_speed);
+    }
+    const int64_t blocks = block_count(p.count);
+    world->sums.resize(blocks);
+    world->ranges.resize(blocks);
+    if (scene.config().collision_distance > 0)
+        world->colliding.resize(p.count);
+    for (const PlateSpec &spec : scene.plates()) {
+        world->walls.plates.emplace_back(spec);
+        world->walls.plates.back().place(0, c.spacing / c.wave_speed);
+    }
+    return world;
+}
+
+} // namespace gp
