@@ -18,7 +18,8 @@ void check_config(const gp_config &c) {
     require_finite("gp_config.gravity_x", c.gravity_x);
     require_finite("gp_config.gravity_y", c.gravity_y);
     require_not_negative("gp_config.sound_speed", c.sound_speed);
-    require_between("gp_config.cfl", c.cfl, 0, 2);
+    if (c.cfl != 0)
+        require_between("gp_config.cfl", c.cfl, 1e-6, 2);
     require_not_negative("gp_config.time_step", c.time_step);
     require_between("gp_config.interaction_radius", c.interaction_radius, 1.5, 8);
     require_between("gp_config.horizon", c.horizon, 1.5, 8);
@@ -228,7 +229,7 @@ int32_t Scene::add_plate(const gp_plate &p) {
     if (p.normal_pressure > 0)
         unsupported("gp_plate.normal_pressure", "a plate under load");
 
-    PlateSpec spec{Segment(p.x0, p.y0, p.x1, p.y1), p.friction, p.wall_mu, {p.vx, p.vy}, {}};
+    PlateSpec spec{Segment(p.x0, p.y0, p.x1, p.y1), p.friction, p.wall_mu, {p.vx, p.vy}, {}, Vector::Zero()};
     if (p.n_knots > 0) {
         require(p.vx == 0 && p.vy == 0, p.vx != 0 ? "gp_plate.vx" : "gp_plate.vy", p.vx != 0 ? p.vx : p.vy,
                 "0 when the plate has a displacement table");
@@ -237,9 +238,9 @@ int32_t Scene::add_plate(const gp_plate &p) {
         require_pointer("gp_plate.knot_y", p.knot_y);
         for (int64_t k = 0; k < p.n_knots; ++k) {
             const auto at = static_cast<long long>(k);
-            if (!std::isfinite(p.knot_t[k]) || !std::isfinite(p.knot_x[k]) || !std::isfinite(p.knot_y[k]))
-                throw make_error(GP_E_ARGUMENT, "gp_plate knot %lld = (%g, %g, %g): expected finite numbers", at,
-                                 p.knot_t[k], p.knot_x[k], p.knot_y[k]);
+            require_finite(format_text("gp_plate.knot_t[%lld]", at).c_str(), p.knot_t[k]);
+            require_finite(format_text("gp_plate.knot_x[%lld]", at).c_str(), p.knot_x[k]);
+            require_finite(format_text("gp_plate.knot_y[%lld]", at).c_str(), p.knot_y[k]);
             if (k > 0 && p.knot_t[k] <= p.knot_t[k - 1])
                 throw make_error(GP_E_ARGUMENT, "gp_plate.knot_t[%lld] = %g: expected more than the knot before, %g", at,
                                  p.knot_t[k], p.knot_t[k - 1]);
@@ -253,8 +254,11 @@ int32_t Scene::add_plate(const gp_plate &p) {
 }
 
 void Scene::drive_plate(int32_t plate, const Vector &velocity) {
-    plates_[plate].velocity = velocity;
-    plates_[plate].table = {};
+    PlateSpec &spec = plates_[plate];
+    if (!spec.table.empty())
+        spec.start = spec.table.displacement(0);
+    spec.velocity = velocity;
+    spec.table = {};
 }
 
 } // namespace gp

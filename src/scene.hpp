@@ -32,6 +32,7 @@ struct PlateSpec {
     double wall_mu;
     Vector velocity;
     MotionTable table;
+    Vector start; // displacement at time 0, of a plate without a table
 };
 
 // A column or a set of particles from the host.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 
 #include "check.hpp"
 #include "diagnostics.hpp"
@@ -51,16 +52,23 @@ gp_status Sim::advance(gp_sim *handle) {
         ++epoch_;
         throw;
     }
-    if (sink)
-        sink->step_done(*world_);
+    // An output that fails takes its frame with it, not the step: the callback sees that first.
+    std::exception_ptr lost_frame;
+    try {
+        if (sink)
+            sink->step_done(*world_);
+    } catch (const Error &) {
+        lost_frame = std::current_exception();
+    }
+    bool stop = false;
     if (callback_ && world_->clock.step % callback_every_ == 0) {
         in_callback_ = true;
-        const int32_t stop = callback_(callback_user_, handle);
+        stop = callback_(callback_user_, handle) != 0;
         in_callback_ = false;
-        if (stop)
-            return GP_STOPPED;
     }
-    return GP_OK;
+    if (lost_frame)
+        std::rethrow_exception(lost_frame);
+    return stop ? GP_STOPPED : GP_OK;
 }
 
 gp_status Sim::step(gp_sim *handle, int64_t n) {

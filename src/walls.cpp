@@ -13,7 +13,7 @@ Vector Plate::displacement(double time) const {
         return driven_from_ + (time - driven_since_) * driven_velocity_;
     if (!spec_->table.empty())
         return spec_->table.displacement(time);
-    return time * spec_->velocity;
+    return spec_->start + time * spec_->velocity;
 }
 
 void Plate::drive(double time, const Vector &velocity) {

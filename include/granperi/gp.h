@@ -109,7 +109,8 @@ typedef struct gp_config {
     double gravity_y;            /* m/s2 [-9.81] */
     double sound_speed;          /* m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling
                                     from its highest to its lowest point, by its initial and plate velocities [0] */
-    double cfl;                  /* time step over dl / (elastic wave speed); 0: the scheme's own; <= 2 [0] */
+    double cfl;                  /* time step over dl / (elastic wave speed); 0: the scheme's own;
+                                    else 1e-6 .. 2 [0] */
     double time_step;            /* s, fixed; 0: adaptive. Larger than the stable limit: refused at the first step [0] */
     double interaction_radius;   /* dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4] */
     double horizon;              /* dl, radius of the peridynamic operators; 1.5 .. 8 [4] */

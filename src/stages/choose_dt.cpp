@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "error.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -35,6 +36,10 @@ void choose_dt(World &world) {
         else if (clock.time_left < 2 * dt)
             dt = 0.5 * clock.time_left;
     }
+    if (!(clock.time + dt > clock.time))
+        throw make_error(clock.step == 0 ? GP_E_ARGUMENT : GP_E_DIVERGED,
+                         "time step %g s: too small to move the clock on from %g s; speeds differ by up to %g m/s", dt,
+                         clock.time, world.velocity_span);
     clock.dt = dt;
 }
 

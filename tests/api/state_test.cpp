@@ -261,7 +261,7 @@ TEST(Load, IdsAreChecked) {
 
 namespace {
 
-const gp_plan_entry &entry(const std::vector<gp_plan_entry> &plan, const std::string &name) {
+gp_plan_entry entry(const std::vector<gp_plan_entry> &plan, const std::string &name) {
     const auto found = std::find_if(plan.begin(), plan.end(), [&](const gp_plan_entry &e) { return e.name == name; });
     if (found == plan.end())
         throw std::runtime_error("the plan has no " + name);
@@ -340,7 +340,7 @@ TEST(Plan, SaysWhatASceneLeavesOut) {
     no_plates.add(make_column(5, 5));
     no_particles.add(make_floor());
     for (const char *stage : wall_stages) {
-        const gp_plan_entry &e = entry(no_plates.plan(), stage);
+        const gp_plan_entry e = entry(no_plates.plan(), stage);
         EXPECT_EQ(e.active, 0) << stage;
         EXPECT_NE(std::string(e.reason).find("no plates"), std::string::npos) << e.reason;
     }
