@@ -18,7 +18,8 @@ gp_state measure_state(const World &world);
 // sets the one with the smallest id).
 std::vector<char> connected_deposit(const World &world);
 
-// Free surface of the connected deposit at stations x: the largest y where the smoothed volume fraction is 1/2.
+// Free surface of the connected deposit at stations x between its fronts: the largest y where the smoothed volume fraction
+// is 1/2, or half of the largest one at x where the material nowhere fills the smoothing radius (beside walls, at fronts).
 class Surface {
 public:
     explicit Surface(const World &world);

@@ -67,6 +67,8 @@ double Surface::left() const { return points_.front().x - 0.5 * spacing_; }
 double Surface::right() const { return points_.back().x + 0.5 * spacing_; }
 
 bool Surface::height(double x, double &y) const {
+    if (points_.empty() || x < left() || x > right())
+        return false;
     const auto before = [](const Point &a, double value) { return a.x < value; };
     const auto first = std::lower_bound(points_.begin(), points_.end(), x - radius_, before);
     const auto last = std::lower_bound(first, points_.end(), x + radius_, before);
@@ -84,19 +86,25 @@ bool Surface::height(double x, double &y) const {
             sum += weight(std::hypot(k->x - x, k->y - at), 1.0 / radius_);
         return scale * sum;
     };
-    // Down from above in quarter spacings to the first half-full point, then bisection.
-    const double step = 0.25 * spacing_;
-    double outside = strip.front().y + radius_;
-    for (double inside = outside - step; inside > strip.back().y - radius_; outside = inside, inside -= step) {
-        if (fraction(inside) < 0.5)
-            continue;
-        for (int k = 0; k < 40; ++k) {
-            const double middle = 0.5 * (inside + outside);
-            (fraction(middle) >= 0.5 ? inside : outside) = middle;
+    // Beside a wall or at a front the material nowhere fills the radius: what counts is half of what it reaches.
+    double fullest = 0;
+    for (auto k = strip.begin(); k != strip.end() && fullest < 0.9; ++k)
+        fullest = std::max(fullest, fraction(k->y));
+    const double half = fullest < 0.9 ? 0.5 * fullest : 0.5;
+    // Down from above each particle in turn, by steps from outside to inside; then bisection.
+    constexpr int steps = 8;
+    for (const Point &point : strip)
+        for (int k = 1; k <= steps; ++k) {
+            double outside = point.y + radius_ * (steps - k + 1) / steps, inside = point.y + radius_ * (steps - k) / steps;
+            if (fraction(inside) < half)
+                continue;
+            for (int halving = 0; halving < 40; ++halving) {
+                const double middle = 0.5 * (inside + outside);
+                (fraction(middle) >= half ? inside : outside) = middle;
+            }
+            y = inside;
+            return true;
         }
-        y = inside;
-        return true;
-    }
     return false;
 }
 
@@ -117,12 +125,6 @@ void Surface::peak(double &x, double &y) const {
                 y = height;
             }
         }
-    }
-    if (y == -INFINITY) { // too thin to be half full anywhere
-        const auto highest = std::max_element(points_.begin(), points_.end(),
-                                              [](const Point &a, const Point &b) { return a.y < b.y; });
-        x = highest->x;
-        y = highest->y + 0.5 * spacing_;
     }
 }
 

@@ -40,8 +40,9 @@ inline int default_threads() {
 template <class Body> void for_each_block(int threads, int64_t n, const Body &body) {
     const int64_t blocks = block_count(n);
 #ifdef GP_WITH_OPENMP
-    // A thread that would get less than two blocks costs more than it brings.
-    const int useful = static_cast<int>(std::max<int64_t>(1, std::min<int64_t>(threads, blocks / 2)));
+    // A thread with less than this to do costs more than it brings, above all where other programs want the processors.
+    constexpr int64_t least_blocks = 8;
+    const int useful = static_cast<int>(std::max<int64_t>(1, std::min<int64_t>(threads, blocks / least_blocks)));
     if (useful > 1) {
 #pragma omp parallel for num_threads(useful) schedule(static)
         for (int64_t block = 0; block < blocks; ++block)

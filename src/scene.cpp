@@ -22,10 +22,10 @@ void check_config(const gp_config &c) {
         require_between("gp_config.cfl", c.cfl, 1e-6, 2);
     require_not_negative("gp_config.time_step", c.time_step);
     require_between("gp_config.interaction_radius", c.interaction_radius, 1.5, 8);
-    require_between("gp_config.horizon", c.horizon, 1.5, 8);
+    require_between("gp_config.horizon", c.horizon, 1.8, 8);
     require_not_negative("gp_config.horizon_length", c.horizon_length);
     if (c.horizon_length > 0)
-        require_between("gp_config.horizon_length / spacing", c.horizon_length / c.spacing, 1.5, 8);
+        require_between("gp_config.horizon_length / spacing", c.horizon_length / c.spacing, 1.8, 8);
     require_choice("gp_config.nonlocal", c.nonlocal, 2);
     require_choice("gp_config.stress", c.stress, 3);
     require_choice("gp_config.density", c.density, 2);

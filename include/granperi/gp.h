@@ -15,6 +15,8 @@
  *   - All input is copied: the caller may free its arrays when the call returns.
  *   - Distinct simulations may be used from distinct threads at the same time. One simulation belongs to one
  *     thread at a time.
+ *   - After fork(), a child may only run simulations with threads = 1 if the parent has run any with more: GNU OpenMP
+ *     does not survive a fork. Where other programs want the processors, use fewer threads or OMP_WAIT_POLICY=passive.
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
  *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), written to its open output
  *     (gp_output_write) and driven (gp_set_plate_velocity). Every other call on it returns GP_E_STATE.
@@ -113,7 +115,7 @@ typedef struct gp_config {
                                     else 1e-6 .. 2 [0] */
     double time_step;            /* s, fixed; 0: adaptive. Larger than the stable limit: refused at the first step [0] */
     double interaction_radius;   /* dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4] */
-    double horizon;              /* dl, radius of the peridynamic operators; 1.5 .. 8 [4] */
+    double horizon;              /* dl, radius of the peridynamic operators; 1.8 .. 8: below, neighbours are too few [4] */
     double horizon_length;       /* m, the horizon as a fixed length; 0: use horizon [0] */
     int32_t nonlocal;            /* 1: peridynamic force states; 0: local model; not yet: GP_E_UNSUPPORTED [1] */
     int32_t stress;              /* GP_STRESS_... [GP_STRESS_ELASTIC] */
@@ -177,7 +179,8 @@ GP_API gp_status gp_column_init(gp_column *column, size_t size);
 /* What the wall does to the tangential velocity. */
 enum {
     GP_WALL_NO_SLIP = 0,   /* the material sticks to a rough wall as far as its own friction allows */
-    GP_WALL_FREE_SLIP = 1, /* no tangential traction */
+    GP_WALL_FREE_SLIP = 1, /* no shear traction. The forces reach over the horizon: beside a pressure that changes along
+                              the plate, a share of the order of dl / extent of the scene still acts along it */
     GP_WALL_COULOMB = 2    /* tangential traction up to wall_mu times the normal one */
 };
 
@@ -339,8 +342,8 @@ typedef struct gp_state {
 
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
 
-/* Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction is 1/2;
- * 0 where there is no material. x, height: shape (n), m. n >= 0. */
+/* Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction (radius 2 dl)
+ * is 1/2, or half of the largest one at x[k] where that stays below 0.9 (beside walls, at fronts); 0 outside the fronts. x, height: shape (n), m. n >= 0. */
 GP_API gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height);
 
 /* Interface of two columns: x[k] separates the particles of `left` from those of `right` in the row of height

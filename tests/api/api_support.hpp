@@ -63,13 +63,19 @@ inline gp_output make_output() {
 }
 
 // Material lies above it: the way from end 0 to end 1 leads to the left.
-inline gp_plate make_floor(double half_length = 2) { return make_plate(half_length, 0, -half_length, 0); }
+inline gp_plate make_floor(double half_length = 2) {
+    return make_plate(half_length, 0, -half_length, 0);
+}
 
 // Material is on its right.
-inline gp_plate make_left_wall(double x, double height) { return make_plate(x, 0, x, height); }
+inline gp_plate make_left_wall(double x, double height) {
+    return make_plate(x, 0, x, height);
+}
 
 // Material is on its left, as behind a gate that will be lifted.
-inline gp_plate make_right_wall(double x, double height) { return make_plate(x, height, x, 0); }
+inline gp_plate make_right_wall(double x, double height) {
+    return make_plate(x, height, x, 0);
+}
 
 // A simulation that ends with its scope.
 class Sim {
@@ -84,8 +90,8 @@ public:
     int32_t add(const gp_plate &plate) { return id_of(gp_add_plate(handle, &plate, &id_)); }
     int32_t add(const gp_material &material) { return id_of(gp_add_material(handle, &material, &id_)); }
     int32_t add(const std::vector<double> &x, const std::vector<double> &y) {
-        return id_of(gp_add_particles(handle, 0, static_cast<int64_t>(x.size()), x.data(), y.data(), nullptr, nullptr,
-                                      &id_));
+        return id_of(
+            gp_add_particles(handle, 0, static_cast<int64_t>(x.size()), x.data(), y.data(), nullptr, nullptr, &id_));
     }
 
     gp_state state() const {
@@ -158,12 +164,33 @@ inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
         for (const double value : sim.field(bit))
             add(value);
     const gp_state s = sim.state();
-    for (const double value :
-         {s.time, static_cast<double>(s.step), s.dt, static_cast<double>(s.n_particles), static_cast<double>(s.n_awake),
-          s.kinetic, s.potential, s.elastic, s.dissipated, s.plate_work, s.energy_error, s.momentum_x, s.momentum_y,
-          s.max_speed, s.rms_speed, s.x_left, s.x_right, s.peak_x, s.peak_height, s.max_pressure,
-          static_cast<double>(s.at_rest), static_cast<double>(s.collisions), s.sound_speed, s.penalty_dissipated,
-          s.wall_dissipated, s.bulk_dissipated, s.collision_dissipated})
+    for (const double value : {s.time,
+                               static_cast<double>(s.step),
+                               s.dt,
+                               static_cast<double>(s.n_particles),
+                               static_cast<double>(s.n_awake),
+                               s.kinetic,
+                               s.potential,
+                               s.elastic,
+                               s.dissipated,
+                               s.plate_work,
+                               s.energy_error,
+                               s.momentum_x,
+                               s.momentum_y,
+                               s.max_speed,
+                               s.rms_speed,
+                               s.x_left,
+                               s.x_right,
+                               s.peak_x,
+                               s.peak_height,
+                               s.max_pressure,
+                               static_cast<double>(s.at_rest),
+                               static_cast<double>(s.collisions),
+                               s.sound_speed,
+                               s.penalty_dissipated,
+                               s.wall_dissipated,
+                               s.bulk_dissipated,
+                               s.collision_dissipated})
         add(value);
     for (int32_t k = 0; k < plates; ++k) {
         const auto load = sim.load(k);
@@ -173,16 +200,20 @@ inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
     return bits;
 }
 
-inline bool last_error_has(const std::string &text) { return std::string(gp_last_error()).find(text) != std::string::npos; }
+inline bool last_error_has(const std::string &text) {
+    return std::string(gp_last_error()).find(text) != std::string::npos;
+}
 
 // The call failed with this status, and the text names what was wrong.
 #define EXPECT_FAILS(call, expected_status, named)                                                                     \
     do {                                                                                                               \
         EXPECT_EQ(call, expected_status) << gp_last_error();                                                           \
-        EXPECT_TRUE(::api::last_error_has(named)) << "gp_last_error() = \"" << gp_last_error() << "\" does not name "  \
-                                                  << (named);                                                          \
+        EXPECT_TRUE(::api::last_error_has(named))                                                                      \
+            << "gp_last_error() = \"" << gp_last_error() << "\" does not name " << (named);                            \
     } while (false)
 
-inline bool has(const char *feature) { return gp_has_feature(feature) == 1; }
+inline bool has(const char *feature) {
+    return gp_has_feature(feature) == 1;
+}
 
 } // namespace api

@@ -33,10 +33,10 @@ const std::vector<Number> numbers = {
     {"gravity_x", &gp_config::gravity_x, {}, {0, 9.81, -9.81}},
     {"gravity_y", &gp_config::gravity_y, {}, {0, 9.81, -1.62}},
     {"sound_speed", &gp_config::sound_speed, {-1e-9, -10}, {0, 0.1, 340}},
-    {"cfl", &gp_config::cfl, {-0.1, 2.0001}, {0, 0.1, 2}},
+    {"cfl", &gp_config::cfl, {-0.1, 9e-7, 2.0001}, {0, 1e-6, 0.1, 2}},
     {"time_step", &gp_config::time_step, {-1e-9}, {0, 1e-9, 1}},
     {"interaction_radius", &gp_config::interaction_radius, {0, -4, 1.49, 8.01}, {1.5, 3.1, 8}},
-    {"horizon", &gp_config::horizon, {0, -4, 1.49, 8.01}, {1.5, 3.1, 8}},
+    {"horizon", &gp_config::horizon, {0, -4, 1.79, 8.01}, {1.8, 3.1, 8}},
     {"horizon_length", &gp_config::horizon_length, {-0.04}, {0, 3 * spacing}},
     {"friction_factor", &gp_config::friction_factor, {-0.1, 10.1}, {0, 2, 10}},
     {"delta", &gp_config::delta, {0, -1e-6}, {1e-9, 1}},
@@ -143,7 +143,7 @@ TEST(Config, ThreadsNeedOpenMP) {
 }
 
 TEST(Config, HorizonLengthHasTheRangeOfTheHorizon) {
-    for (const double spacings : {1.4, 8.1}) {
+    for (const double spacings : {1.7, 8.1}) {
         gp_config config = make_config();
         config.horizon_length = spacings * spacing;
         EXPECT_FAILS(create(config), GP_E_ARGUMENT, "horizon_length");
@@ -233,7 +233,8 @@ TEST(Config, UnstableTimeStepIsRefusedAtTheFirstStep) {
         double gp_config::*member;
         double value;
     };
-    for (const Choice &choice : {Choice{"time_step", &gp_config::time_step, 1.0}, Choice{"cfl", &gp_config::cfl, 2.0}}) {
+    for (const Choice &choice :
+         {Choice{"time_step", &gp_config::time_step, 1.0}, Choice{"cfl", &gp_config::cfl, 2.0}}) {
         SCOPED_TRACE(choice.name);
         gp_config config = make_config();
         config.*choice.member = choice.value;

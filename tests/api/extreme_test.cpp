@@ -204,8 +204,7 @@ TEST(Extremes, OfOutputIntervals) {
         sim.add(make_column(2, 2));
         gp_output output = make_output();
         output.every_seconds = every;
-        const gp_status status =
-            gp_output_open(sim, (testing::TempDir() + "granperi_interval.h5").c_str(), &output);
+        const gp_status status = gp_output_open(sim, (testing::TempDir() + "granperi_interval.h5").c_str(), &output);
         expect_sane(status, "gp_output_open");
         if (status != GP_OK)
             continue;

@@ -31,26 +31,55 @@ void *allocate(std::size_t size, std::size_t alignment) {
 
 } // namespace
 
-void *operator new(std::size_t size) { return allocate(size, 1); }
-void *operator new[](std::size_t size) { return allocate(size, 1); }
-void *operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, std::size_t(alignment)); }
-void *operator new[](std::size_t size, std::align_val_t alignment) { return allocate(size, std::size_t(alignment)); }
-void *operator new(std::size_t size, const std::nothrow_t &) noexcept { return std::malloc(size > 0 ? size : 1); }
-void *operator new[](std::size_t size, const std::nothrow_t &) noexcept { return std::malloc(size > 0 ? size : 1); }
-void operator delete(void *memory) noexcept { std::free(memory); }
-void operator delete[](void *memory) noexcept { std::free(memory); }
-void operator delete(void *memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void *memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void *memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void *memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void *memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void *memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void *operator new(std::size_t size) {
+    return allocate(size, 1);
+}
+void *operator new[](std::size_t size) {
+    return allocate(size, 1);
+}
+void *operator new(std::size_t size, std::align_val_t alignment) {
+    return allocate(size, std::size_t(alignment));
+}
+void *operator new[](std::size_t size, std::align_val_t alignment) {
+    return allocate(size, std::size_t(alignment));
+}
+void *operator new(std::size_t size, const std::nothrow_t &) noexcept {
+    return std::malloc(size > 0 ? size : 1);
+}
+void *operator new[](std::size_t size, const std::nothrow_t &) noexcept {
+    return std::malloc(size > 0 ? size : 1);
+}
+void operator delete(void *memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void *memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void *memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void *memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void *memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void *memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void *memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void *memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
 
 namespace {
 
-// Calls with the n-th allocation failing, n = 0, 1, ..., until nothing fails any more; `check` looks after each failure.
-// `call` hands over the result of the library's call only: no test macro may need memory within.
-void fail_each_allocation(const char *name, const std::function<gp_status()> &call, const std::function<void()> &check) {
+// Calls with the n-th allocation failing, n = 0, 1, ..., until nothing fails any more; `check` looks after each
+// failure. `call` hands over the result of the library's call only: no test macro may need memory within.
+void fail_each_allocation(const char *name, const std::function<gp_status()> &call,
+                          const std::function<void()> &check) {
     SCOPED_TRACE(name);
     for (long n = 0; n < 1000; ++n) {
         has_failed = false;
@@ -132,13 +161,16 @@ TEST(Memory, ReadingCanBeTriedAgain) {
         gp_plan_entry entries[50];
         int64_t n;
         if (k == 1) {
-            fail_each_allocation("gp_get_state", [&] { return gp_get_state(sim, &state); }, [] {});
+            fail_each_allocation(
+                "gp_get_state", [&] { return gp_get_state(sim, &state); }, [] {});
             fail_each_allocation(
                 "gp_get_particles", [&] { return gp_get_particles(sim, GP_FIELD_ALL, &particles); }, [] {});
             fail_each_allocation(
                 "gp_copy_field", [&] { return gp_copy_field(sim, GP_FIELD_VISCOSITY, field, 36); }, [] {});
-            fail_each_allocation("gp_get_surface", [&] { return gp_get_surface(sim, 1, &x, &height); }, [] {});
-            fail_each_allocation("gp_get_plan", [&] { return gp_get_plan(sim, 50, entries, &n); }, [&] { EXPECT_EQ(n, 0); });
+            fail_each_allocation(
+                "gp_get_surface", [&] { return gp_get_surface(sim, 1, &x, &height); }, [] {});
+            fail_each_allocation(
+                "gp_get_plan", [&] { return gp_get_plan(sim, 50, entries, &n); }, [&] { EXPECT_EQ(n, 0); });
         }
         ASSERT_EQ(gp_step(sim, 10), GP_OK) << gp_last_error();
         EXPECT_GT(sim.state().time, 0);

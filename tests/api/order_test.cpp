@@ -71,7 +71,8 @@ TEST(Order, TheSceneIsFixedWhileAnOutputIsOpen) {
     Sim sim;
     sim.add(make_floor());
     sim.add(make_column(3, 3));
-    ASSERT_EQ(gp_output_open(sim, (testing::TempDir() + "granperi_order.h5").c_str(), nullptr), GP_OK) << gp_last_error();
+    ASSERT_EQ(gp_output_open(sim, (testing::TempDir() + "granperi_order.h5").c_str(), nullptr), GP_OK)
+        << gp_last_error();
     expect_scene_is_fixed(sim, "output");
     EXPECT_EQ(gp_set_plate_velocity(sim, 0, 0.1, 0), GP_OK);
     EXPECT_EQ(gp_output_write(sim), GP_OK);

@@ -1,5 +1,5 @@
-// Result files as a program sees them: opened, written, closed, and what happens when the disk says no. The layout of the
-// file has its own tests (unit/frame_file_test.cpp).
+// Result files as a program sees them: opened, written, closed, and what happens when the disk says no. The layout of
+// the file has its own tests (unit/frame_file_test.cpp).
 #include <csignal>
 #include <filesystem>
 #include <fstream>

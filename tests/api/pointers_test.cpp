@@ -100,7 +100,9 @@ TEST(Pointers, InterfaceNamesItsArrays) {
     EXPECT_EQ(gp_get_interface(sim, 0, 1, 0, nullptr, nullptr), GP_OK);
 }
 
-TEST(Pointers, DestroyTakesNull) { gp_destroy(nullptr); }
+TEST(Pointers, DestroyTakesNull) {
+    gp_destroy(nullptr);
+}
 
 TEST(Pointers, IdsMayBeNull) {
     Sim sim;
@@ -132,9 +134,8 @@ TEST(Pointers, HandlesIdsAndCountsAreNullOrZeroAfterAnError) {
         expect_id_zero([&](int32_t *id) { return gp_add_material(handle, &material, id); });
         expect_id_zero([&](int32_t *id) { return gp_add_column(handle, &column, id); });
         expect_id_zero([&](int32_t *id) { return gp_add_plate(handle, &plate, id); });
-        expect_id_zero([&](int32_t *id) {
-            return gp_add_particles(handle, 0, 1, nullptr, nullptr, nullptr, nullptr, id);
-        });
+        expect_id_zero(
+            [&](int32_t *id) { return gp_add_particles(handle, 0, 1, nullptr, nullptr, nullptr, nullptr, id); });
     }
     ASSERT_EQ(gp_step(sim, 1), GP_OK);
     material = make_material();
@@ -197,7 +198,8 @@ TEST(Errors, ChangeNothing) {
                                       gp_run(sim, -1),
                                       gp_run(sim, not_a_number),
                                       gp_run(sim, infinite),
-                                      gp_set_callback(sim, 0, +[](void *, gp_sim *) { return int32_t(1); }, nullptr),
+                                      gp_set_callback(
+                                          sim, 0, +[](void *, gp_sim *) { return int32_t(1); }, nullptr),
                                       gp_get_particles(sim, GP_FIELD_ALL + 1, &particles),
                                       gp_copy_field(sim, GP_FIELD_POSITION, out, 3),
                                       gp_copy_field(sim, GP_FIELD_X, out, 3),

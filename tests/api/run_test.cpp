@@ -140,8 +140,8 @@ TEST(EmptyScene, OnlyCountsTime) {
     EXPECT_GT(s.step, 3);
     EXPECT_EQ(s.n_particles, 0);
     EXPECT_EQ(s.n_awake, 0);
-    for (const double value : {s.kinetic, s.potential, s.elastic, s.dissipated, s.plate_work, s.energy_error, s.momentum_x,
-                               s.momentum_y, s.max_speed, s.rms_speed, s.max_pressure})
+    for (const double value : {s.kinetic, s.potential, s.elastic, s.dissipated, s.plate_work, s.energy_error,
+                               s.momentum_x, s.momentum_y, s.max_speed, s.rms_speed, s.max_pressure})
         EXPECT_EQ(value, 0);
     EXPECT_EQ(sim.count(), 0);
     EXPECT_EQ(gp_copy_field(sim, GP_FIELD_X, nullptr, 0), GP_OK);

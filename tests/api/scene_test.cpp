@@ -12,8 +12,7 @@ template <class T> struct Number {
 };
 
 // Adds `valid` with one field changed; each refusal names the field and leaves the simulation as it was.
-template <class T, class Add>
-void check_numbers(const std::vector<Number<T>> &numbers, const T &valid, Add add) {
+template <class T, class Add> void check_numbers(const std::vector<Number<T>> &numbers, const T &valid, Add add) {
     Sim sim;
     const uint64_t epoch = sim.epoch();
     for (const Number<T> &field : numbers) {

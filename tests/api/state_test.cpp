@@ -24,9 +24,9 @@ TEST(State, OfTheInitialColumn) {
     EXPECT_NEAR(s.potential, mass * 9.81 * 5 * spacing, 1e-9);
     EXPECT_GT(s.elastic, 0) << "the column begins compressed by its weight";
     EXPECT_LT(s.elastic, 0.01 * s.potential);
-    for (const double value : {s.dissipated, s.plate_work, s.momentum_x, s.momentum_y, s.max_speed, s.rms_speed,
-                               s.penalty_dissipated, s.wall_dissipated, s.bulk_dissipated, s.collision_dissipated,
-                               s.wall_seconds})
+    for (const double value :
+         {s.dissipated, s.plate_work, s.momentum_x, s.momentum_y, s.max_speed, s.rms_speed, s.penalty_dissipated,
+          s.wall_dissipated, s.bulk_dissipated, s.collision_dissipated, s.wall_seconds})
         EXPECT_EQ(value, 0);
     EXPECT_NEAR(s.energy_error, 0, 1e-12);
     EXPECT_EQ(s.collisions, 0);
@@ -244,7 +244,8 @@ TEST(Load, IsTheWeightOfAColumnBetweenWalls) {
     EXPECT_LT(sim.load(1).fx, 0) << "the material presses the left wall to the left";
     EXPECT_GT(sim.load(2).fx, 0);
     for (int32_t plate = 1; plate < 3; ++plate)
-        EXPECT_NEAR(sim.load(plate).impulse_y, 0, 1e-9 * weight) << "free slip: no tangential traction";
+        EXPECT_NEAR(sim.load(plate).impulse_y, 0, 0.03 * weight * sim.state().time)
+            << "free slip: no shear traction, but the forces' reach leaves a share of the order of dl / extent";
 }
 
 TEST(Load, IdsAreChecked) {

@@ -10,7 +10,8 @@ constexpr unsigned char guard_byte = 0xa5;
 // A struct of any size in memory of exactly that size, so that a checker of memory sees every byte too far.
 class Bytes {
 public:
-    Bytes(const void *from, std::size_t known, std::size_t size, unsigned char rest) : data_(size, static_cast<char>(rest)) {
+    Bytes(const void *from, std::size_t known, std::size_t size, unsigned char rest)
+        : data_(size, static_cast<char>(rest)) {
         data_.shrink_to_fit();
         std::memcpy(data_.data(), from, std::min(known, size));
     }
@@ -33,7 +34,9 @@ private:
     std::vector<char> data_;
 };
 
-gp_status init_config(gp_config *config, size_t size) { return gp_config_init(config, size, GP_PRESET_DEFAULT); }
+gp_status init_config(gp_config *config, size_t size) {
+    return gp_config_init(config, size, GP_PRESET_DEFAULT);
+}
 
 template <class T> void check_init(gp_status (*init)(T *, size_t), const char *name) {
     SCOPED_TRACE(name);
@@ -86,9 +89,9 @@ template <class T, class Use> void check_input(const T &valid, const char *name,
 }
 
 // An older program: the struct ends before `field`. Its memory ends there too.
-#define SHORTER(valid, field) Bytes(&(valid), offsetof(std::decay_t<decltype(valid)>, field),                              \
-                                    offsetof(std::decay_t<decltype(valid)>, field), 0)                                     \
-                                  .say(offsetof(std::decay_t<decltype(valid)>, field))
+#define SHORTER(valid, field)                                                                                          \
+    Bytes(&(valid), offsetof(std::decay_t<decltype(valid)>, field), offsetof(std::decay_t<decltype(valid)>, field), 0) \
+        .say(offsetof(std::decay_t<decltype(valid)>, field))
 
 } // namespace
 
@@ -117,10 +120,8 @@ TEST(StructSize, LongerAndTooShortInputs) {
         }
         return status;
     };
-    check_input(make_material(), "gp_material",
-                [&](const gp_material *m) { return add(gp_add_material, m); });
-    check_input(make_column(2, 2), "gp_column",
-                [&](const gp_column *c) { return add(gp_add_column, c); });
+    check_input(make_material(), "gp_material", [&](const gp_material *m) { return add(gp_add_material, m); });
+    check_input(make_column(2, 2), "gp_column", [&](const gp_column *c) { return add(gp_add_column, c); });
     check_input(make_floor(), "gp_plate", [&](const gp_plate *p) { return add(gp_add_plate, p); });
     EXPECT_EQ(sim.count(), 4 * 5) << "the refused columns were not added";
     if (!has("hdf5"))

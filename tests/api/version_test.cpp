@@ -58,7 +58,7 @@ TEST(Status, LastErrorNamesArgumentValueAndExpectation) {
     config.horizon = 8.5;
     gp_sim *sim;
     EXPECT_EQ(gp_create(&config, &sim), GP_E_ARGUMENT);
-    EXPECT_TRUE(last_error_has("horizon") && last_error_has("8.5") && last_error_has("1.5") && last_error_has("8"))
+    EXPECT_TRUE(last_error_has("horizon") && last_error_has("8.5") && last_error_has("1.8") && last_error_has("8"))
         << gp_last_error();
 }
 

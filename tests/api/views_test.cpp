@@ -10,8 +10,19 @@ namespace {
 
 // The pointer of each bit, in the order of the bits from GP_FIELD_X on.
 std::vector<const double *> numbers_of(const gp_particles &p) {
-    return {p.x,   p.y,   p.vx,         p.vy,              p.pressure,  p.density,       p.sxx, p.sxy,
-            p.syy, p.shear_rate, p.inertial_number, p.viscosity, p.number_density};
+    return {p.x,
+            p.y,
+            p.vx,
+            p.vy,
+            p.pressure,
+            p.density,
+            p.sxx,
+            p.sxy,
+            p.syy,
+            p.shear_rate,
+            p.inertial_number,
+            p.viscosity,
+            p.number_density};
 }
 
 void start(Sim &sim, int steps = 40) {
@@ -142,7 +153,8 @@ TEST(Views, CopyFieldTakesExactlyOneBitAndTheCount) {
     Sim sim;
     start(sim, 1);
     std::vector<double> values(121, 7);
-    for (const uint32_t field : {0u, GP_FIELD_POSITION, GP_FIELD_ALL, GP_FIELD_ALL + 1, 1u << 31, GP_FIELD_ID | GP_FIELD_X})
+    for (const uint32_t field :
+         {0u, GP_FIELD_POSITION, GP_FIELD_ALL, GP_FIELD_ALL + 1, 1u << 31, GP_FIELD_ID | GP_FIELD_X})
         EXPECT_FAILS(gp_copy_field(sim, field, values.data(), 120), GP_E_ARGUMENT, "field");
     for (const int64_t n : {int64_t(0), int64_t(119), int64_t(121), int64_t(-1), INT64_MAX})
         EXPECT_FAILS(gp_copy_field(sim, GP_FIELD_X, values.data(), n), GP_E_ARGUMENT, "n = ");

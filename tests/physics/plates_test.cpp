@@ -90,7 +90,7 @@ TEST(Gates, OnePassingAtConstantSpeedLeavesTheSceneForGood) {
     EXPECT_EQ(sim.load(id).fx, 0);
     EXPECT_GT(state.x_right, 0.08);
     // It is far away, so its speed no longer bounds the time step.
-    EXPECT_GT(state.dt, 0.9 * 0.5 * 0.0025 / (state.sound_speed * std::sqrt(1.3)));
+    EXPECT_GT(state.dt, 0.9 * 0.8 * 0.0025 / (state.sound_speed * std::sqrt(1.3)));
 }
 
 TEST(Plates, HostDrivenPistonDoesItsWork) {
