@@ -3,34 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ledger.hpp"
+
 
 namespace gp {
 
 namespace {
-
-struct Energies {
-    double kinetic = 0, potential = 0, elastic = 0;
-    double sum() const { return kinetic + potential + elastic; }
-};
-
-Energies measure_energies(const World &world) {
-    const Particles &p = world.particles;
-    const Vector &g = world.constants.gravity;
-    const double c2 = world.constants.sound_speed * world.constants.sound_speed;
-    Energies e;
-    for (int64_t i = 0; i < p.count; ++i) {
-        const MaterialConstants &m = world.material_of(i);
-        const double mass = m.density * p.volume;
-        e.kinetic += 0.5 * mass * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
-        e.potential += mass * (-g.x() * p.x[i] - g.y() * p.y[i] - g.norm() * world.ledger.reference_height);
-        // Integral of p d rho / rho from rho0 on, and s:s / 4G.
-        const double compression = p.density[i] / m.density - 1;
-        if (compression > 0)
-            e.elastic += p.volume * m.density * c2 * (compression - std::log1p(compression));
-        e.elastic += p.volume * (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
-    }
-    return e;
-}
 
 // At rest: gp_state.at_rest in gp.h defines it with these numbers.
 constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_acceleration = 0.05;
@@ -45,21 +23,6 @@ bool is_at_rest(const World &world, const Energies &e) {
 }
 
 } // namespace
-
-void open_ledger(World &world) {
-    const Particles &p = world.particles;
-    const Vector &g = world.constants.gravity;
-    if (p.count > 0 && g.norm() > 0) {
-        const Vector up = -g.normalized();
-        double lowest = INFINITY;
-        for (int64_t i = 0; i < p.count; ++i)
-            lowest = std::min(lowest, up.dot(Vector(p.x[i], p.y[i])));
-        world.ledger.reference_height = lowest - 0.5 * world.constants.spacing;
-    }
-    const Energies e = measure_energies(world);
-    world.ledger.initial = e.sum();
-    world.ledger.largest_kinetic = e.kinetic;
-}
 
 gp_state measure_state(const World &world) {
     const Particles &p = world.particles;

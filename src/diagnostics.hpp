@@ -1,4 +1,4 @@
-// What a simulation can tell of itself. Everything here only reads, apart from opening the ledger at the start.
+// What a simulation can tell of itself. Everything here only reads.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,6 @@
 #include "world.hpp"
 
 namespace gp {
-
-// Energy of the start, and the height from which the potential counts.
-void open_ledger(World &world);
 
 // The whole of gp_state but for the wall-clock time.
 gp_state measure_state(const World &world);

@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "check.hpp"
-#include "diagnostics.hpp"
+#include "ledger.hpp"
 #include "stages/stages.hpp"
 
 namespace gp {

@@ -51,7 +51,7 @@ class Header:
                            if not name.startswith(("GP_API", "GP_VERSION_"))]
         declared = len(re.findall(r"^GP_API\b", text, re.M))
         if declared != len(self.functions) or not self.structs or not self.constants:
-            fail("this script does not understand the header:", declared, "declarations,", len(self.functions), "understood")
+            fail("this script understands", len(self.functions), "of", declared, "declarations in the header")
 
 
 def write(arguments, name, text):
@@ -111,7 +111,8 @@ def check_link(arguments, header):
     text += "};\nint main(void) {\n    unsigned k, n = sizeof functions / sizeof functions[0];\n"
     text += "    /* gp_load, the type and the call */\n    gp_load load;\n    gp_sim *sim = NULL;\n"
     text += "    load.struct_size = (uint32_t)sizeof load;\n"
-    text += "    if (gp_load(\"nowhere\", &sim) != GP_E_UNSUPPORTED || sim || load.struct_size == 0)\n        return 1;\n"
+    text += "    if (gp_load(\"nowhere\", &sim) != GP_E_UNSUPPORTED || sim || load.struct_size == 0)\n"
+    text += "        return 1;\n"
     text += "    for (k = 0; k < n; ++k)\n        if (!functions[k])\n            return 1;\n"
     text += "    printf(\"%u functions, version %s\\n\", n, gp_version_string());\n    return 0;\n}\n"
     source = write(arguments, "link.c", text)
@@ -130,7 +131,8 @@ def check_link(arguments, header):
 def check_layout(arguments, header):
     text = '#include "%s"\n#include <stdio.h>\n' % arguments.header
     text += "#define SIZE(type) printf(#type \" size %u\\n\", (unsigned)sizeof(type))\n"
-    text += "#define FIELD(type, field) printf(#type \".\" #field \" at %u size %u\\n\", (unsigned)offsetof(type, field), "
+    text += "#define FIELD(type, field) printf(#type \".\" #field \" at %u size %u\\n\", "
+    text += "(unsigned)offsetof(type, field), "
     text += "(unsigned)sizeof(((type *)0)->field))\n"
     text += "#define VALUE(name) printf(#name \" = %ld\\n\", (long)(name))\n"
     text += "int main(void) {\n    if (sizeof(void *) != 8 || sizeof(long) != 8)\n        return 77;\n"

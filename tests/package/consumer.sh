@@ -32,14 +32,17 @@ use_pkg_config() {
     flags=$(pkg-config --cflags --libs granperi)
     case $flags in *hdf5* | *stdc++* | *fopenmp*) fail "a shared link names private libraries: $flags" ;; esac
     # shellcheck disable=SC2086
-    $CC -std=c99 -Wall -Wextra -Werror "$consumer/main.c" -o "$work/pc_shared" $flags || fail "pkg-config, shared: $flags"
-    LD_LIBRARY_PATH=$lib ldd "$work/pc_shared" | grep -q "libgranperi.so.0 => .*$2/" || fail "pc_shared loads another library"
+    $CC -std=c99 -Wall -Wextra -Werror "$consumer/main.c" -o "$work/pc_shared" $flags ||
+        fail "pkg-config, shared: $flags"
+    LD_LIBRARY_PATH=$lib ldd "$work/pc_shared" | grep -q "libgranperi.so.0 => .*$2/" ||
+        fail "pc_shared loads another library"
     LD_LIBRARY_PATH=$lib expect_run "pkg-config, shared" "$work/pc_shared"
 
     # Of the two libraries beside each other the linker would take the shared one.
     flags=$(pkg-config --static --cflags --libs granperi | sed 's/-lgranperi\b/-l:libgranperi.a/')
     # shellcheck disable=SC2086
-    $CC -std=c99 -Wall -Wextra -Werror "$consumer/main.c" -o "$work/pc_static" $flags || fail "pkg-config, static: $flags"
+    $CC -std=c99 -Wall -Wextra -Werror "$consumer/main.c" -o "$work/pc_static" $flags ||
+        fail "pkg-config, static: $flags"
     ours "$work/pc_static" | grep -q granperi && fail "pc_static loads libgranperi.so"
     expect_run "pkg-config, static" "$work/pc_static"
 }
@@ -52,7 +55,8 @@ use_cmake() {
         -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF >"$work/cmake.log" 2>&1 || { cat "$work/cmake.log"; fail "find_package"; }
     grep -q 'Warning' "$work/cmake.log" && { cat "$work/cmake.log"; fail "find_package warns"; }
     grep "^granperi_DIR:PATH=$1/" "$work/cmake/CMakeCache.txt" >/dev/null || fail "find_package finds another granperi"
-    "$CMAKE" --build "$work/cmake" >"$work/cmake.log" 2>&1 || { cat "$work/cmake.log"; fail "a build with find_package"; }
+    "$CMAKE" --build "$work/cmake" >"$work/cmake.log" 2>&1 ||
+        { tail -n 30 "$work/cmake.log"; fail "a build with find_package"; }
     expect_run "find_package, shared" "$work/cmake/shared"
     expect_run "find_package, static" "$work/cmake/static"
     ours "$work/cmake/shared" | grep -q granperi || fail "the target granperi::granperi is not the shared library"

@@ -15,7 +15,8 @@ trap 'rm -rf "$work"' EXIT
 . "$(dirname "$0")/consumer.sh"
 
 prefix=$work/first
-"$CMAKE" --install "$build" --prefix "$prefix" >"$work/install.log" 2>&1 || { cat "$work/install.log"; fail "cmake --install"; }
+"$CMAKE" --install "$build" --prefix "$prefix" >"$work/install.log" 2>&1 ||
+    { cat "$work/install.log"; fail "cmake --install"; }
 for file in include/granperi/gp.h "$libdir/libgranperi.so" "$libdir/libgranperi.so.0" "$libdir/libgranperi.a" \
     "$libdir/pkgconfig/granperi.pc" "$libdir/cmake/granperi/granperi-config.cmake"; do
     [ -e "$prefix/$file" ] || fail "$file is not installed"

@@ -1,0 +1,42 @@
+#include "ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gp {
+
+Energies measure_energies(const World &world) {
+    const Particles &p = world.particles;
+    const Vector &g = world.constants.gravity;
+    const double c2 = world.constants.sound_speed * world.constants.sound_speed;
+    Energies e;
+    for (int64_t i = 0; i < p.count; ++i) {
+        const MaterialConstants &m = world.material_of(i);
+        const double mass = m.density * p.volume;
+        e.kinetic += 0.5 * mass * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
+        e.potential += mass * (-g.x() * p.x[i] - g.y() * p.y[i] - g.norm() * world.ledger.reference_height);
+        // Integral of p d rho / rho from rho0 on, and s:s / 4G.
+        const double compression = p.density[i] / m.density - 1;
+        if (compression > 0)
+            e.elastic += p.volume * m.density * c2 * (compression - std::log1p(compression));
+        e.elastic += p.volume * (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+    }
+    return e;
+}
+
+void open_ledger(World &world) {
+    const Particles &p = world.particles;
+    const Vector &g = world.constants.gravity;
+    if (p.count > 0 && g.norm() > 0) {
+        const Vector up = -g.normalized();
+        double lowest = INFINITY;
+        for (int64_t i = 0; i < p.count; ++i)
+            lowest = std::min(lowest, up.dot(Vector(p.x[i], p.y[i])));
+        world.ledger.reference_height = lowest - 0.5 * world.constants.spacing;
+    }
+    const Energies e = measure_energies(world);
+    world.ledger.initial = e.sum();
+    world.ledger.largest_kinetic = e.kinetic;
+}
+
+} // namespace gp

@@ -1,0 +1,19 @@
+// Energies of the particles, and the start of the energy ledger. The stage `account` keeps it from there on.
+#pragma once
+
+#include "world.hpp"
+
+namespace gp {
+
+// J per metre of depth.
+struct Energies {
+    double kinetic = 0, potential = 0, elastic = 0;
+    double sum() const { return kinetic + potential + elastic; }
+};
+
+Energies measure_energies(const World &world);
+
+// Energy of the start, and the height from which the potential counts.
+void open_ledger(World &world);
+
+} // namespace gp

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""Files of src/ may include those of earlier layers and their own, never a later one: read the includes and check."""
+import pathlib
+import re
+import sys
+
+LAYERS = [
+    ["granperi/gp", "error", "check", "parallel"],
+    ["geometry", "kernel", "material/return_map"],
+    ["scene", "scene_constants", "scene_defaults"],
+    ["particles"],
+    ["neighbors"],
+    ["operators", "walls"],
+    ["world", "ledger"],
+    ["stages/*"],
+    ["plan"],
+    ["sim"],
+    ["fields", "diagnostics", "diagnostics_shape", "io/*"],
+    ["api"],
+]
+
+
+def layer_of(name):
+    for number, names in enumerate(LAYERS):
+        if name in names or (name.rpartition("/")[0] + "/*") in names:
+            return number
+    sys.exit(f"{name}: in no layer; add it to LAYERS in {__file__}")
+
+
+def main(source):
+    wrong = 0
+    for path in sorted([*source.rglob("*.hpp"), *source.rglob("*.cpp")]):
+        own = str(path.relative_to(source).with_suffix(""))
+        for included in re.findall(r'^#include "([^"]+)\.(?:hpp|h)"', path.read_text(), re.M):
+            if layer_of(included) > layer_of(own):
+                print(f"{own} includes {included}, of a later layer")
+                wrong += 1
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))
