@@ -79,8 +79,9 @@ template <class T> T complete(const T *given, const T &defaults, const char *nam
     const auto *bytes = reinterpret_cast<const unsigned char *>(given);
     for (std::size_t k = sizeof(T); k < size; ++k)
         if (bytes[k] != 0)
-            throw make_error(GP_E_VERSION, "%s.struct_size = %u: sets a field that this version (%zu bytes) does not know",
-                             name, size, sizeof(T));
+            throw make_error(GP_E_VERSION,
+                             "%s.struct_size = %u: sets a field that this version (%zu bytes) does not know", name,
+                             size, sizeof(T));
     return whole;
 }
 
@@ -100,7 +101,8 @@ template <class T> gp_status hand_out(T *target, T filled, const char *name) {
     require_pointer(name, target);
     const uint32_t size = target->struct_size;
     if (size < 2 * sizeof(uint32_t))
-        throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected sizeof(%s), set by the caller", name, size, name);
+        throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected sizeof(%s), set by the caller", name, size,
+                         name);
     filled.struct_size = size;
     std::memcpy(static_cast<void *>(target), &filled, std::min<std::size_t>(size, sizeof(T)));
     return GP_OK;
@@ -130,11 +132,17 @@ extern "C" {
 
 // ------------------------------------------------------------------------------------------ status, version
 
-const char *gp_status_string(gp_status status) { return status_text(status); }
+const char *gp_status_string(gp_status status) {
+    return status_text(status);
+}
 
-const char *gp_last_error(void) { return last_error(); }
+const char *gp_last_error(void) {
+    return last_error();
+}
 
-uint32_t gp_version(void) { return GP_VERSION_MAJOR * 10000u + GP_VERSION_MINOR * 100u + GP_VERSION_PATCH; }
+uint32_t gp_version(void) {
+    return GP_VERSION_MAJOR * 10000u + GP_VERSION_MINOR * 100u + GP_VERSION_PATCH;
+}
 
 #define GP_TEXT(x) #x
 #define GP_NUMBER_TEXT(x) GP_TEXT(x)
@@ -269,7 +277,8 @@ gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles
     return guard([&] {
         require_pointer("particles", particles);
         if (fields & ~GP_FIELD_ALL)
-            throw make_error(GP_E_ARGUMENT, "fields = 0x%x: expected bits GP_FIELD_... up to 0x%x", fields, GP_FIELD_ALL);
+            throw make_error(GP_E_ARGUMENT, "fields = 0x%x: expected bits GP_FIELD_... up to 0x%x", fields,
+                             GP_FIELD_ALL);
         Sim &s = readable(sim);
         const World &world = s.world();
         gp_particles view{};
@@ -279,9 +288,18 @@ gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles
             view.id = world.particles.id.data();
         if (fields & GP_FIELD_COLUMN)
             view.column = world.particles.column.data();
-        const double **pointers[] = {&view.x,        &view.y,   &view.vx,  &view.vy,
-                                     &view.pressure, &view.density, &view.sxx, &view.sxy,
-                                     &view.syy,      &view.shear_rate, &view.inertial_number, &view.viscosity,
+        const double **pointers[] = {&view.x,
+                                     &view.y,
+                                     &view.vx,
+                                     &view.vy,
+                                     &view.pressure,
+                                     &view.density,
+                                     &view.sxx,
+                                     &view.sxy,
+                                     &view.syy,
+                                     &view.shear_rate,
+                                     &view.inertial_number,
+                                     &view.viscosity,
                                      &view.number_density};
         for (uint32_t k = 0; k < 13; ++k) {
             const uint32_t bit = GP_FIELD_X << k;
@@ -298,8 +316,8 @@ gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
             throw make_error(GP_E_ARGUMENT, "field = 0x%x: expected exactly one of the bits GP_FIELD_...", field);
         const World &world = readable(sim).world();
         if (n != world.particles.count)
-            throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld", static_cast<long long>(n),
-                             static_cast<long long>(world.particles.count));
+            throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld",
+                             static_cast<long long>(n), static_cast<long long>(world.particles.count));
         if (n > 0) {
             require_pointer("dst", dst);
             copy_field_by_id(world, field, dst);
@@ -403,7 +421,9 @@ gp_status gp_load_file(const char *path, gp_sim **sim) {
 
 // The name gp_load for programs that look symbols up: in C it is the type's.
 GP_API gp_status gp_load_symbol(const char *path, gp_sim **sim) __asm__("gp_load");
-gp_status gp_load_symbol(const char *path, gp_sim **sim) { return gp_load_file(path, sim); }
+gp_status gp_load_symbol(const char *path, gp_sim **sim) {
+    return gp_load_file(path, sim);
+}
 
 gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output) {
     return guard([&] {

@@ -5,7 +5,6 @@
 
 #include "ledger.hpp"
 
-
 namespace gp {
 
 namespace {

@@ -23,7 +23,7 @@ public:
     bool empty() const { return points_.empty(); }
     // false where there is no material at x.
     bool height(double x, double &y) const;
-    double left() const;  // m, fronts with half a spacing added
+    double left() const; // m, fronts with half a spacing added
     double right() const;
     // Highest point of the surface.
     void peak(double &x, double &y) const;

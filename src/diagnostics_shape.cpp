@@ -62,9 +62,13 @@ Surface::Surface(const World &world)
               [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
 }
 
-double Surface::left() const { return points_.front().x - 0.5 * spacing_; }
+double Surface::left() const {
+    return points_.front().x - 0.5 * spacing_;
+}
 
-double Surface::right() const { return points_.back().x + 0.5 * spacing_; }
+double Surface::right() const {
+    return points_.back().x + 0.5 * spacing_;
+}
 
 bool Surface::height(double x, double &y) const {
     if (points_.empty() || x < left() || x > right())
@@ -95,7 +99,8 @@ bool Surface::height(double x, double &y) const {
     constexpr int steps = 8;
     for (const Point &point : strip)
         for (int k = 1; k <= steps; ++k) {
-            double outside = point.y + radius_ * (steps - k + 1) / steps, inside = point.y + radius_ * (steps - k) / steps;
+            double outside = point.y + radius_ * (steps - k + 1) / steps,
+                   inside = point.y + radius_ * (steps - k) / steps;
             if (fraction(inside) < half)
                 continue;
             for (int halving = 0; halving < 40; ++halving) {

@@ -37,7 +37,9 @@ void set_last_error(const char *text) noexcept {
     std::snprintf(last_error_text, sizeof last_error_text, "%s", text);
 }
 
-const char *last_error() noexcept { return last_error_text; }
+const char *last_error() noexcept {
+    return last_error_text;
+}
 
 const char *status_text(gp_status status) noexcept {
     switch (status) {

@@ -28,7 +28,8 @@ void CellGrid::sort(Particles &particles, double cell_size, int threads) {
             unsorted_[i] = row_of(particles.y[i]) * columns_ + column_of(particles.x[i]);
     });
 
-    const bool dense = static_cast<double>(columns_) * static_cast<double>(rows_) <= 4.0 * static_cast<double>(n) + 4096.0;
+    const bool dense =
+        static_cast<double>(columns_) * static_cast<double>(rows_) <= 4.0 * static_cast<double>(n) + 4096.0;
     if (dense) {
         key_.clear();
         start_.assign(columns_ * rows_ + 1, 0);

@@ -58,9 +58,9 @@ private:
     Box box_;
     double inverse_size_ = 0;
     int64_t columns_ = 0, rows_ = 0, count_ = 0;
-    Field<int32_t> start_;   // table of cells, when it is small enough
-    Field<int64_t> key_;     // cell of each sorted particle, for the search otherwise
-    Field<int32_t> order_;   // sorted position -> old position
+    Field<int32_t> start_; // table of cells, when it is small enough
+    Field<int64_t> key_;   // cell of each sorted particle, for the search otherwise
+    Field<int32_t> order_; // sorted position -> old position
     Field<int64_t> unsorted_;
 };
 

@@ -24,7 +24,9 @@ namespace gp {
 
 constexpr int64_t block_size = 64;
 
-inline int64_t block_count(int64_t n) { return (n + block_size - 1) / block_size; }
+inline int64_t block_count(int64_t n) {
+    return (n + block_size - 1) / block_size;
+}
 
 // Threads that a simulation uses when its config says 0.
 inline int default_threads() {

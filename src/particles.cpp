@@ -9,8 +9,9 @@ void Particles::allocate(int64_t n, bool penalty, bool diffusion) {
     const auto size = static_cast<std::size_t>(n);
     id.resize(size);
     column.resize(size);
-    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy, &gxx, &gxy,
-                                 &gyy, &cxx, &cxy, &cyx, &cyy, &ax, &ay, &push_x, &push_y, &scratch_double_})
+    for (Field<double> *field :
+         {&x,   &y,   &vx,  &vy,  &density, &pressure, &sxx, &sxy, &lxx, &lxy,    &lyx,    &lyy,
+          &gxx, &gxy, &gyy, &cxx, &cxy,     &cyx,      &cyy, &ax,  &ay,  &push_x, &push_y, &scratch_double_})
         field->resize(size);
     if (penalty)
         stressed.resize(size);

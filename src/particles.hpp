@@ -30,11 +30,11 @@ struct Particles {
     // Carried from step to step.
     Field<int64_t> id;
     Field<int32_t> column;
-    Field<double> x, y;      // m
-    Field<double> vx, vy;    // m/s
-    Field<double> density;   // kg/m3
-    Field<double> pressure;  // Pa
-    Field<double> sxx, sxy;  // Pa, deviatoric stress
+    Field<double> x, y;     // m
+    Field<double> vx, vy;   // m/s
+    Field<double> density;  // kg/m3
+    Field<double> pressure; // Pa
+    Field<double> sxx, sxy; // Pa, deviatoric stress
 
     // Made anew in each step.
     Field<double> lxx, lxy, lyx, lyy; // 1/s, velocity gradient L_ab = du_a/dr_b

@@ -25,7 +25,9 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
 
 namespace {
 
-bool in_reach(const World &world) { return world.walls.in_reach(); }
+bool in_reach(const World &world) {
+    return world.walls.in_reach();
+}
 
 bool plates_move(const World &world) {
     const std::vector<Plate> &plates = world.walls.plates;
@@ -89,7 +91,9 @@ template <class T> int64_t bytes_of(const T &field) {
     return static_cast<int64_t>(field.capacity() * sizeof(typename T::value_type));
 }
 
-template <class... Fields> int64_t bytes_of_all(const Fields &...fields) { return (bytes_of(fields) + ...); }
+template <class... Fields> int64_t bytes_of_all(const Fields &...fields) {
+    return (bytes_of(fields) + ...);
+}
 
 gp_plan_entry field_entry(const char *name, bool active, const char *reason, int64_t bytes) {
     gp_plan_entry entry{};
@@ -133,11 +137,12 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("stress_over_shape", bytes_of_all(p.cxx, p.cxy, p.cyx, p.cyy));
     common("acceleration", bytes_of_all(p.ax, p.ay));
     common("push", bytes_of_all(p.push_x, p.push_y));
-    entries.push_back(field_entry("stressed", t.penalty, t.penalty ? "the zero-energy penalty acts on stressed material"
-                                                                   : "zero_energy_penalty is 0",
-                                  bytes_of(p.stressed)));
-    entries.push_back(field_entry("flowing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0",
-                                  bytes_of(p.flowing)));
+    entries.push_back(
+        field_entry("stressed", t.penalty,
+                    t.penalty ? "the zero-energy penalty acts on stressed material" : "zero_energy_penalty is 0",
+                    bytes_of(p.stressed)));
+    entries.push_back(field_entry(
+        "flowing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0", bytes_of(p.flowing)));
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));

@@ -17,12 +17,12 @@ Traits traits_of(const Scene &scene, const Constants &constants);
 
 struct PlannedStage {
     const char *name;
-    bool needed;                        // by the scene
-    const char *why;                    // if needed
-    const char *why_not;                // if not
+    bool needed;         // by the scene
+    const char *why;     // if needed
+    const char *why_not; // if not
     void (*run)(World &);
-    bool (*now)(const World &);         // NULL, or: is there anything to do at the moment?
-    const char *idle;                   // the reason when there is not
+    bool (*now)(const World &); // NULL, or: is there anything to do at the moment?
+    const char *idle;           // the reason when there is not
     double seconds = 0;
     int64_t calls = 0;
 };
@@ -30,6 +30,7 @@ struct PlannedStage {
 std::vector<PlannedStage> make_stages(const Traits &traits);
 
 // Entries for gp_get_plan: stages, then fields and tables.
-std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages, const Traits &traits, const World &world);
+std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages, const Traits &traits,
+                                         const World &world);
 
 } // namespace gp

@@ -127,14 +127,17 @@ int32_t Scene::add_column(const gp_column &c, std::string &note) {
     const double columns = std::round(c.width / spacing), rows = std::round(c.height / spacing);
     if (columns < 1 || rows < 1)
         throw make_error(GP_E_ARGUMENT, "%s = %g: expected at least half of the spacing %g",
-                         columns < 1 ? "gp_column.width" : "gp_column.height", columns < 1 ? c.width : c.height, spacing);
+                         columns < 1 ? "gp_column.width" : "gp_column.height", columns < 1 ? c.width : c.height,
+                         spacing);
     if (columns * rows > static_cast<double>(most_particles - particle_count()))
-        throw make_error(GP_E_ARGUMENT, "gp_column.width x height = %g x %g: %g particles, more than the %lld that are left",
-                         c.width, c.height, columns * rows, static_cast<long long>(most_particles - particle_count()));
+        throw make_error(GP_E_ARGUMENT,
+                         "gp_column.width x height = %g x %g: %g particles, more than the %lld that are left", c.width,
+                         c.height, columns * rows, static_cast<long long>(most_particles - particle_count()));
     const double tolerance = 1e-6 * spacing;
     if (std::abs(columns * spacing - c.width) > tolerance || std::abs(rows * spacing - c.height) > tolerance)
         note = format_text("column %d: %g x %g m rounded to %g x %g m, whole numbers of the spacing %g m",
-                           static_cast<int>(bodies_.size()), c.width, c.height, columns * spacing, rows * spacing, spacing);
+                           static_cast<int>(bodies_.size()), c.width, c.height, columns * spacing, rows * spacing,
+                           spacing);
 
     Body body;
     body.material = c.material;
@@ -242,8 +245,8 @@ int32_t Scene::add_plate(const gp_plate &p) {
             require_finite(format_text("gp_plate.knot_x[%lld]", at).c_str(), p.knot_x[k]);
             require_finite(format_text("gp_plate.knot_y[%lld]", at).c_str(), p.knot_y[k]);
             if (k > 0 && p.knot_t[k] <= p.knot_t[k - 1])
-                throw make_error(GP_E_ARGUMENT, "gp_plate.knot_t[%lld] = %g: expected more than the knot before, %g", at,
-                                 p.knot_t[k], p.knot_t[k - 1]);
+                throw make_error(GP_E_ARGUMENT, "gp_plate.knot_t[%lld] = %g: expected more than the knot before, %g",
+                                 at, p.knot_t[k], p.knot_t[k - 1]);
         }
         spec.table.t.assign(p.knot_t, p.knot_t + p.n_knots);
         spec.table.x.assign(p.knot_x, p.knot_x + p.n_knots);

@@ -45,7 +45,7 @@ struct Body {
 };
 
 struct MaterialConstants {
-    double density;     // rho0 = phi rho_s, kg/m3
+    double density; // rho0 = phi rho_s, kg/m3
     double grain_density, grain_diameter;
     double bulk_modulus; // rho0 c0^2, Pa
     ReturnMap map;
@@ -55,15 +55,15 @@ struct MaterialConstants {
 struct Constants {
     double spacing, volume;
     Vector gravity;
-    double horizon;            // m
-    double interaction_radius; // m
-    LatticeSums lattice;       // for the horizon
-    double sound_speed;        // c0, m/s
+    double horizon;                // m
+    double interaction_radius;     // m
+    LatticeSums lattice;           // for the horizon
+    double sound_speed;            // c0, m/s
     bool sound_speed_is_arbitrary; // nothing in the scene sets a speed
-    double wave_speed;         // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), m/s
-    double fall_height;        // m, that the sound speed is based on
-    double time_scale;         // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
-    double penalty;            // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
+    double wave_speed;             // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), m/s
+    double fall_height;            // m, that the sound speed is based on
+    double time_scale;             // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
+    double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
     bool several_materials;

@@ -144,8 +144,8 @@ bool Scene::face_is_supported(const Body &body, const Vector &outward) const {
     const auto cells = static_cast<int64_t>(std::round(length / config_.spacing));
     int64_t covered = 0;
     for (int64_t k = 0; k < cells; ++k) {
-        const Vector point = centre + half_depth * outward +
-                             along * ((static_cast<double>(k) + 0.5) * config_.spacing - 0.5 * length);
+        const Vector point =
+            centre + half_depth * outward + along * ((static_cast<double>(k) + 0.5) * config_.spacing - 0.5 * length);
         covered += std::any_of(plates_.begin(), plates_.end(), [&](const PlateSpec &plate) {
             return plate.segment.normal.dot(outward) < -0.99 && plate.segment.nearest(point) < 0.5 * config_.spacing;
         });

@@ -195,7 +195,8 @@ void Sim::check_demanded_step() const {
     const double demanded = scene_.config().time_step;
     const double limit = stages::stable_dt(world_->constants);
     if (demanded > limit)
-        throw make_error(GP_E_ARGUMENT, "gp_config.time_step = %g: expected at most %g s, the stable limit of this scene", demanded,
+        throw make_error(GP_E_ARGUMENT,
+                         "gp_config.time_step = %g: expected at most %g s, the stable limit of this scene", demanded,
                          limit);
     const double cfl = scene_.config().cfl;
     if (cfl * world_->constants.spacing / world_->constants.wave_speed > limit)
@@ -209,8 +210,10 @@ void Sim::warn_about_scene() const {
         log(GP_LOG_WARNING, "sound_speed: nothing in the scene sets a speed, so 1 m/s is used");
     const int64_t wrong_side = world_->walls.count_overlapping(world_->particles, 0.25 * c.spacing);
     if (wrong_side > 0)
-        log(GP_LOG_WARNING, format_text("%lld particles begin within a quarter spacing of a plate's wetted line or just "
-                                        "behind it", static_cast<long long>(wrong_side)));
+        log(GP_LOG_WARNING,
+            format_text("%lld particles begin within a quarter spacing of a plate's wetted line or just "
+                        "behind it",
+                        static_cast<long long>(wrong_side)));
 }
 
 // ----------------------------------------------------------------------------------------------- callbacks

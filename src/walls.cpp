@@ -46,7 +46,8 @@ int64_t Walls::count_overlapping(const Particles &particles, double margin) cons
     for (int64_t i = 0; i < particles.count; ++i) {
         const Vector at(particles.x[i], particles.y[i]);
         found += std::any_of(plates.begin(), plates.end(), [&](const Plate &plate) {
-            return std::abs(plate.segment().distance(at)) < margin && plate.segment().covers(plate.segment().along(at), 0);
+            return std::abs(plate.segment().distance(at)) < margin &&
+                   plate.segment().covers(plate.segment().along(at), 0);
         });
     }
     return found;
@@ -54,12 +55,13 @@ int64_t Walls::count_overlapping(const Particles &particles, double margin) cons
 
 int64_t Walls::bytes() const {
     int64_t total = particles_of_ghost.bytes();
-    for (const Field<double> *field : {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx,
-                                       &ghost_axy, &ghost_ayy})
+    for (const Field<double> *field :
+         {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         total += static_cast<int64_t>(field->capacity() * sizeof(double));
     for (const Field<int32_t> *field : {&ghost_plate, &ghost_of_contact, &contact_start, &fill_})
         total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
-    return total + static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate));
+    return total +
+           static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate));
 }
 
 namespace {
@@ -100,7 +102,8 @@ std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid 
     return found;
 }
 
-void Walls::find_contacts(const Particles &particles, const CellGrid &grid, double radius, double spacing, int threads) {
+void Walls::find_contacts(const Particles &particles, const CellGrid &grid, double radius, double spacing,
+                          int threads) {
     const int64_t n = particles.count;
     const double tolerance = 1e-9 * spacing;
     candidates_.clear();
@@ -183,8 +186,8 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, doub
 
     ghost_count = static_cast<int64_t>(candidates_.size());
     ghost_plate.resize(ghost_count);
-    for (Field<double> *field : {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx,
-                                 &ghost_axy, &ghost_ayy})
+    for (Field<double> *field :
+         {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         field->resize(ghost_count);
     particles_of_ghost.start.resize(ghost_count + 1);
     particles_of_ghost.start[0] = 0;

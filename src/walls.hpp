@@ -18,7 +18,8 @@ namespace gp {
 // A plate in motion.
 class Plate {
 public:
-    explicit Plate(const PlateSpec &spec) : spec_(&spec), driven_from_(Vector::Zero()), driven_velocity_(Vector::Zero()) {}
+    explicit Plate(const PlateSpec &spec)
+        : spec_(&spec), driven_from_(Vector::Zero()), driven_velocity_(Vector::Zero()) {}
 
     Vector displacement(double time) const;
     // The host drives the plate from now on.
@@ -49,10 +50,10 @@ private:
 // The ghosts that a particle sees of one plate.
 struct Contact {
     int32_t particle, plate;
-    int64_t begin, end;          // in Walls::ghost_of_contact
-    double force_x, force_y;     // N/m3: force density on the particle
-    double power;                // W/m3: of that force on the particle
-    double ghost_power;          // W/m3: the ghosts' share of sigma : L
+    int64_t begin, end;      // in Walls::ghost_of_contact
+    double force_x, force_y; // N/m3: force density on the particle
+    double power;            // W/m3: of that force on the particle
+    double ghost_power;      // W/m3: the ghosts' share of sigma : L
 };
 
 struct Walls {
@@ -61,15 +62,15 @@ struct Walls {
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
     Field<int32_t> ghost_plate;
-    Field<double> ghost_along, ghost_depth;    // m, in the plate's frame: from end 0, and behind the wetted line
-    Field<double> ghost_x, ghost_y;            // m
-    Field<double> ghost_vx, ghost_vy;          // m/s, extrapolated
+    Field<double> ghost_along, ghost_depth;        // m, in the plate's frame: from end 0, and behind the wetted line
+    Field<double> ghost_x, ghost_y;                // m
+    Field<double> ghost_vx, ghost_vy;              // m/s, extrapolated
     Field<double> ghost_axx, ghost_axy, ghost_ayy; // stress over the full-lattice shape tensor, N/m4 per unit of w r
 
-    NeighborList particles_of_ghost;           // (close_count unused)
-    Field<int32_t> ghost_of_contact;           // rows of contacts
-    Field<int32_t> contact_start;              // contacts of particle i: contact_start[i] .. contact_start[i + 1]
-    std::vector<Contact> contacts;             // ordered by particle, then plate
+    NeighborList particles_of_ghost; // (close_count unused)
+    Field<int32_t> ghost_of_contact; // rows of contacts
+    Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
+    std::vector<Contact> contacts;   // ordered by particle, then plate
 
     bool in_reach() const { return !contacts.empty(); }
     int64_t bytes() const;

@@ -65,8 +65,8 @@ struct World {
 
     // Neighbour lists are good while particles (and plates) have moved by less than the skin against each other.
     bool lists_valid = false;
-    double skin = 0;     // m
-    double shifted = 0;  // m, bound on the relative shift since the lists were made
+    double skin = 0;          // m
+    double shifted = 0;       // m, bound on the relative shift since the lists were made
     double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
     double fastest = 0;       // m/s, bound on any particle's speed
 

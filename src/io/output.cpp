@@ -143,7 +143,9 @@ void Output::step_done(const World &world) {
     write(world);
 }
 
-void Output::close() { impl_->file->close(); }
+void Output::close() {
+    impl_->file->close();
+}
 
 #else
 

@@ -15,7 +15,9 @@ struct Deviator {
     double xx, xy;
 };
 
-GP_INLINE double equivalent_stress(const Deviator &s) { return std::sqrt(s.xx * s.xx + s.xy * s.xy); }
+GP_INLINE double equivalent_stress(const Deviator &s) {
+    return std::sqrt(s.xx * s.xx + s.xy * s.xy);
+}
 
 // Rotation of the stress with the material (Jaumann rate over one step), by the Cayley form of the rotation, which keeps
 // the magnitude exactly. spin = (du_x/dy - du_y/dx) / 2 in 1/s.

@@ -93,7 +93,8 @@ void account(World &world) {
 
     Ledger &ledger = world.ledger;
     ledger.plate_work -= dt * plate_power;
-    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.collision_loss + penalty + dt * (plate_power - contact_power);
+    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.collision_loss + penalty +
+                         dt * (plate_power - contact_power);
     ledger.penalty += penalty;
     ledger.walls += dt * (plate_power - contact_power);
     ledger.bulk += total.bulk;

@@ -18,7 +18,9 @@ constexpr double flow_share = 0.25;
 
 } // namespace
 
-double stable_dt(const Constants &constants) { return stable_cfl * constants.spacing / constants.wave_speed; }
+double stable_dt(const Constants &constants) {
+    return stable_cfl * constants.spacing / constants.wave_speed;
+}
 
 void choose_dt(World &world) {
     const gp_config &config = world.scene->config();

@@ -74,8 +74,8 @@ void collide(World &world) {
                 continue;
             const double du = p.cxx[i], dv = p.cxy[i];
             // Less half the acceleration's share: see push() in wall_contact.cpp.
-            loss -= world.material_of(i).density * (du * (p.vx[i] + 0.5 * (du - dt * p.ax[i])) +
-                                                    dv * (p.vy[i] + 0.5 * (dv - dt * p.ay[i])));
+            loss -= world.material_of(i).density *
+                    (du * (p.vx[i] + 0.5 * (du - dt * p.ax[i])) + dv * (p.vy[i] + 0.5 * (dv - dt * p.ay[i])));
             p.vx[i] += du;
             p.vy[i] += dv;
             p.push_x[i] += du;

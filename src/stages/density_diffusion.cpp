@@ -26,7 +26,8 @@ struct View {
 };
 
 GP_MULTIVERSION void exchange(const View &v, int64_t begin, int64_t end) {
-    const double *__restrict x = v.x, *__restrict y = v.y, *__restrict excess = v.excess, *__restrict flowing = v.flowing;
+    const double *__restrict x = v.x, *__restrict y = v.y, *__restrict excess = v.excess,
+                             *__restrict flowing = v.flowing;
     const double *__restrict density = v.density;
     for (int64_t i = begin; i < end; ++i) {
         v.change[i] = 0;

@@ -67,7 +67,8 @@ struct WallView {
 
 // Force density of one plate's ghosts on a particle with A = sigma K^-1, the particle's half of the penalty towards them
 // included, and the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r.
-GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &l, double half_penalty, Contact &contact) {
+GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &l, double half_penalty,
+                             Contact &contact) {
     const int64_t i = contact.particle;
     const double xi = v.x[i], yi = v.y[i];
     double wx = 0, wy = 0, tx = 0, ty = 0, gu = 0, gv = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
@@ -151,14 +152,34 @@ void force(World &world) {
         plate.torque = 0;
     }
     const Constants &c = world.constants;
-    const View view{p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),  p.stressed.data(),
-                    p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(), world.neighbors.start.data(),
-                    world.neighbors.index.data(), 1.0 / c.horizon, c.penalty};
+    const View view{p.x.data(),
+                    p.y.data(),
+                    p.vx.data(),
+                    p.vy.data(),
+                    p.stressed.data(),
+                    p.cxx.data(),
+                    p.cxy.data(),
+                    p.cyx.data(),
+                    p.cyy.data(),
+                    world.neighbors.start.data(),
+                    world.neighbors.index.data(),
+                    1.0 / c.horizon,
+                    c.penalty};
     const bool in_reach = walls.in_reach();
     if (in_reach) {
-        const WallView wall{p.x.data(), p.y.data(), p.vx.data(), p.vy.data(), walls.ghost_x.data(), walls.ghost_y.data(),
-                            walls.ghost_vx.data(), walls.ghost_vy.data(), walls.ghost_axx.data(), walls.ghost_axy.data(),
-                            walls.ghost_ayy.data(), walls.ghost_of_contact.data(), 1.0 / c.horizon};
+        const WallView wall{p.x.data(),
+                            p.y.data(),
+                            p.vx.data(),
+                            p.vy.data(),
+                            walls.ghost_x.data(),
+                            walls.ghost_y.data(),
+                            walls.ghost_vx.data(),
+                            walls.ghost_vy.data(),
+                            walls.ghost_axx.data(),
+                            walls.ghost_axy.data(),
+                            walls.ghost_ayy.data(),
+                            walls.ghost_of_contact.data(),
+                            1.0 / c.horizon};
         for_each_block(world.threads, static_cast<int64_t>(walls.contacts.size()),
                        [&](int64_t, int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
     }

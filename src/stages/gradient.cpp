@@ -23,8 +23,8 @@ struct View {
 // velocity along the plate, t.M.n, is left out.
 GP_INLINE void add_contact(Moments &sum, const View &v, int64_t i, const Contact &contact) {
     Moments m;
-    add_moments(m, v.ghost_index + contact.begin, contact.end - contact.begin, v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx, v.gy,
-                v.gvx, v.gvy, v.inverse_radius);
+    add_moments(m, v.ghost_index + contact.begin, contact.end - contact.begin, v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
+                v.gy, v.gvx, v.gvy, v.inverse_radius);
     const Plate &plate = v.plates[contact.plate];
     if (plate.spec().friction != GP_WALL_NO_SLIP) {
         const Vector &t = plate.segment().tangent, &n = plate.segment().normal;
@@ -46,8 +46,8 @@ GP_INLINE void add_contact(Moments &sum, const View &v, int64_t i, const Contact
 GP_MULTIVERSION void gradient_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         Moments m;
-        add_moments(m, v.index + v.start[i], v.start[i + 1] - v.start[i], v.x[i], v.y[i], v.vx[i], v.vy[i], v.x, v.y, v.vx,
-                    v.vy, v.inverse_radius);
+        add_moments(m, v.index + v.start[i], v.start[i + 1] - v.start[i], v.x[i], v.y[i], v.vx[i], v.vy[i], v.x, v.y,
+                    v.vx, v.vy, v.inverse_radius);
         if (v.contact_start)
             for (int32_t k = v.contact_start[i]; k < v.contact_start[i + 1]; ++k)
                 add_contact(m, v, i, v.contacts[k]);
@@ -91,7 +91,8 @@ void gradient(World &world) {
                     p.gxx.data(),
                     p.gxy.data(),
                     p.gyy.data()};
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) { gradient_rows(view, begin, end); });
+    for_each_block(world.threads, p.count,
+                   [&](int64_t, int64_t begin, int64_t end) { gradient_rows(view, begin, end); });
 }
 
 } // namespace gp::stages

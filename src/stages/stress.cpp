@@ -20,7 +20,8 @@ template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t be
     Particles &p = world.particles;
     const double dt = world.clock.dt;
     const double half_penalty = 0.5 * world.constants.penalty;
-    const double bulk_viscosity = world.scene->config().bulk_viscosity * world.constants.sound_speed * world.constants.spacing;
+    const double bulk_viscosity =
+        world.scene->config().bulk_viscosity * world.constants.sound_speed * world.constants.spacing;
     double plastic = 0, internal = 0, damped = 0;
     for (int64_t i = begin; i < end; ++i) {
         const ReturnMap &map = world.map_of(i);
@@ -36,7 +37,8 @@ template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t be
         p.sxy[i] = after.xy;
 
         // Mean stress of the step times plastic strain (s_trial - s) / 2G; s:e = 2 (s_xx e_xx + s_xy e_xy).
-        plastic += ((before.xx + after.xx) * (trial.xx - after.xx) + (before.xy + after.xy) * (trial.xy - after.xy)) / stiff;
+        plastic +=
+            ((before.xx + after.xx) * (trial.xx - after.xx) + (before.xy + after.xy) * (trial.xy - after.xy)) / stiff;
 
         // Bulk viscosity damps what has no friction, volume changes; together with the pressure it never pulls.
         const double divergence = lxx + lyy;
@@ -73,9 +75,8 @@ template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t be
 
 void stress(World &world) {
     const auto rows = world.constants.penalty > 0 ? stress_rows<true> : stress_rows<false>;
-    for_each_block(world.threads, world.particles.count, [&](int64_t block, int64_t begin, int64_t end) {
-        rows(world, block, begin, end);
-    });
+    for_each_block(world.threads, world.particles.count,
+                   [&](int64_t block, int64_t begin, int64_t end) { rows(world, block, begin, end); });
 }
 
 } // namespace gp::stages

@@ -33,8 +33,9 @@ void update_neighbors(World &world) {
     world.grid.sort(world.particles, 0.5 * radius, world.threads);
     for (Plate &plate : world.walls.plates)
         plate.place(world.clock.time, world.clock.dt);
-    find_neighbors(world.particles, world.grid, radius, close, world.walls.barriers(world.particles, world.grid, radius),
-                   tolerance, world.threads, world.neighbors);
+    find_neighbors(world.particles, world.grid, radius, close,
+                   world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads,
+                   world.neighbors);
     world.walls.find_contacts(world.particles, world.grid, radius, c.spacing, world.threads);
     world.lists_valid = true;
 }

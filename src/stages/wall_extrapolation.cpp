@@ -47,8 +47,9 @@ void wall_velocity(World &world) {
             const double ratio = w.ghost_depth[k] / std::max(sd / sw, 1e-9 * w.ghost_depth[k]);
             const double normal = -std::min(ratio, steepest_normal) * s.normal.dot(relative);
             // Without friction of its own a plate passes no shear through its surface.
-            const double tangential = (plate.spec().friction == GP_WALL_NO_SLIP ? -std::min(ratio, steepest_tangential) : 1.0) *
-                                      s.tangent.dot(relative);
+            const double tangential =
+                (plate.spec().friction == GP_WALL_NO_SLIP ? -std::min(ratio, steepest_tangential) : 1.0) *
+                s.tangent.dot(relative);
             const Vector ghost = plate.velocity() + normal * s.normal + tangential * s.tangent;
             w.ghost_vx[k] = ghost.x();
             w.ghost_vy[k] = ghost.y();

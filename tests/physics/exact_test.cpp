@@ -42,11 +42,12 @@ TEST(UniformMotion, IsKept) {
 namespace {
 
 struct Tank {
-    explicit Tank(double spacing, int32_t friction) : sim([&] {
-        gp_config c = config(spacing);
-        c.sound_speed = 10;
-        return c;
-    }()) {
+    explicit Tank(double spacing, int32_t friction)
+        : sim([&] {
+              gp_config c = config(spacing);
+              c.sound_speed = 10;
+              return c;
+          }()) {
         sim.column(0, 0, 0.05, 0.05);
         bottom = sim.add(floor_at(0, 0, 0.05, friction));
         left = sim.add(plate(0, 0, 0, 0.1, friction));
@@ -82,7 +83,8 @@ TEST(HydrostaticColumn, HasItsPressureAndStaysAtRest) {
     // Together the plates bear the weight. The forces reach over the horizon, so a part of it of the order of dl / width
     // hangs on the side walls; and the corner's diagonal belongs to one of the two plates that meet there.
     const double weight = scale * 0.05 * 0.05;
-    const gp_load bottom = tank.sim.load(tank.bottom), left = tank.sim.load(tank.left), right = tank.sim.load(tank.right);
+    const gp_load bottom = tank.sim.load(tank.bottom), left = tank.sim.load(tank.left),
+                  right = tank.sim.load(tank.right);
     EXPECT_NEAR(bottom.fy + left.fy + right.fy, -weight, 1e-4 * weight);
     EXPECT_NEAR(bottom.fx + left.fx + right.fx, 0, 1e-4 * weight);
     EXPECT_NEAR(bottom.fy, -weight, 0.015 * weight);

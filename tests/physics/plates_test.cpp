@@ -45,7 +45,8 @@ TEST(Gates, HoldTheColumnThenLetItGoAndLeaveThePlan) {
     sim.column(-half, 0, 2 * half, height);
     sim.add(floor_at(0, -0.4, 0.4));
     const Lift lift(height + 6 * dl, 0.1);
-    gp_plate left = plate(-half, 0, -half, 0.1, GP_WALL_FREE_SLIP), right = plate(half, 0.1, half, 0, GP_WALL_FREE_SLIP);
+    gp_plate left = plate(-half, 0, -half, 0.1, GP_WALL_FREE_SLIP),
+             right = plate(half, 0.1, half, 0, GP_WALL_FREE_SLIP);
     lift.apply(left);
     lift.apply(right);
     const int32_t left_id = sim.add(left), right_id = sim.add(right);

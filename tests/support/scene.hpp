@@ -12,7 +12,9 @@
 namespace test {
 
 const double pi = std::acos(-1.0);
-inline double degrees(double angle) { return angle * pi / 180; }
+inline double degrees(double angle) {
+    return angle * pi / 180;
+}
 
 inline gp_config config(double spacing) {
     gp_config c;
@@ -95,7 +97,8 @@ public:
     }
     std::vector<double> field(uint32_t bit) {
         std::vector<double> values(static_cast<std::size_t>(state().n_particles));
-        EXPECT_EQ(gp_copy_field(sim_, bit, values.data(), static_cast<int64_t>(values.size())), GP_OK) << gp_last_error();
+        EXPECT_EQ(gp_copy_field(sim_, bit, values.data(), static_cast<int64_t>(values.size())), GP_OK)
+            << gp_last_error();
         return values;
     }
 
@@ -107,7 +110,7 @@ private:
 struct Collapse {
     static constexpr double length = 0.08, height = 0.05, density = 1550, gravity = 9.81;
     static constexpr double energy = density * gravity * length * height * height / 2; // J/m
-    static constexpr double base_pressure = density * gravity * height;               // Pa
+    static constexpr double base_pressure = density * gravity * height;                // Pa
     Collapse(int resolution, double mu_s_degrees = 21, double mu_2_degrees = 32, int threads = 1)
         : sim([&] {
               gp_config c = config(length / resolution);

@@ -72,7 +72,8 @@ TEST(Neighbors, AgreeWithBruteForce) {
         for (int64_t i = 0; i < 500; ++i)
             for (int64_t k = world.neighbors.start[i]; k < world.neighbors.start[i + 1]; ++k) {
                 const int64_t j = world.neighbors.index[k];
-                const double r = std::hypot(world.particles.x[i] - world.particles.x[j], world.particles.y[i] - world.particles.y[j]);
+                const double r = std::hypot(world.particles.x[i] - world.particles.x[j],
+                                            world.particles.y[i] - world.particles.y[j]);
                 EXPECT_EQ(k < world.neighbors.start[i] + world.neighbors.close_count[i], r < close);
             }
     }
@@ -92,8 +93,8 @@ TEST(Neighbors, DoNotSeeEachOtherThroughAPlate) {
 TEST(Ghosts, FillACornerOnceAndOnlyInReach) {
     // A particle in the corner of floor and wall sees every lattice point behind them within the list's radius once.
     Points points({0.5}, {0.5});
-    points.plate(30, 0, 0, 0);  // floor
-    points.plate(0, 0, 0, 30);  // wall on the left
+    points.plate(30, 0, 0, 0);   // floor
+    points.plate(0, 0, 0, 30);   // wall on the left
     points.plate(50, 30, 50, 0); // out of reach
     const World &world = points.build();
     const double radius = world.constants.horizon + world.skin;
@@ -101,7 +102,8 @@ TEST(Ghosts, FillACornerOnceAndOnlyInReach) {
     for (const Contact &contact : world.walls.contacts)
         for (int64_t k = contact.begin; k < contact.end; ++k) {
             const int32_t g = world.walls.ghost_of_contact[k];
-            EXPECT_TRUE(seen.insert({std::round(2 * world.walls.ghost_x[g]), std::round(2 * world.walls.ghost_y[g])}).second);
+            EXPECT_TRUE(
+                seen.insert({std::round(2 * world.walls.ghost_x[g]), std::round(2 * world.walls.ghost_y[g])}).second);
             EXPECT_NE(contact.plate, 2);
         }
     std::size_t expected = 0;

@@ -11,7 +11,9 @@ using test::Block;
 
 namespace {
 
-bool inside(double x, double y) { return std::min({x, y, 1 - x, 1 - y}) > 0.25; }
+bool inside(double x, double y) {
+    return std::min({x, y, 1 - x, 1 - y}) > 0.25;
+}
 
 // Root mean square error of L_xx for u = sin(3x + 2y) away from the edges.
 double gradient_error(int n, double jitter) {
@@ -175,6 +177,7 @@ TEST(InverseShape, IsPlainWhereItCanAndVanishesWhereItMust) {
     EXPECT_NEAR(-r.xx * s + r.xy * c, 0, 1e-9);
     // Continuous at the floor.
     const double floor = deficient_share * k0;
-    const Tensor below = deficient_inverse(1, 0, floor * (1 - 1e-9), k0), above = deficient_inverse(1, 0, floor * (1 + 1e-9), k0);
+    const Tensor below = deficient_inverse(1, 0, floor * (1 - 1e-9), k0),
+                 above = deficient_inverse(1, 0, floor * (1 + 1e-9), k0);
     EXPECT_NEAR(below(1, 1), above(1, 1), 1e-6 * above(1, 1));
 }

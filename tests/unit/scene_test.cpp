@@ -24,7 +24,8 @@ Scene column_scene(double y_min, double vx = 0) {
     return scene;
 }
 
-void add_plate(Scene &scene, double x0, double y0, double x1, double y1, double vy = 0, int32_t friction = GP_WALL_NO_SLIP) {
+void add_plate(Scene &scene, double x0, double y0, double x1, double y1, double vy = 0,
+               int32_t friction = GP_WALL_NO_SLIP) {
     gp_plate plate = default_plate();
     plate.x0 = x0;
     plate.y0 = y0;
