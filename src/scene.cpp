@@ -66,6 +66,17 @@ void check_config(const gp_config &c) {
 #endif
 }
 
+// Positions beyond this many spacings from the origin no longer resolve the spacing well (to 2e-4 of it).
+constexpr double farthest = 1e12; // dl
+
+void require_position(const char *name, double value, double spacing) {
+    require_finite(name, value);
+    const double limit = farthest * spacing;
+    if (!(std::abs(value) <= limit))
+        throw make_error(GP_E_ARGUMENT, "%s = %g: expected a number from %g to %g m, 1e12 spacings", name, value,
+                         -limit, limit);
+}
+
 // A reproducible number in [-1, 1) from a seed and a counter (the SplitMix64 finaliser).
 double hashed_uniform(uint64_t seed, uint64_t counter) {
     uint64_t z = seed + 0x9E3779B97F4A7C15u * (counter + 1);
@@ -115,8 +126,8 @@ void Scene::reserve(int64_t more) {
 }
 
 int32_t Scene::add_column(const gp_column &c, std::string &note) {
-    require_finite("gp_column.x_min", c.x_min);
-    require_finite("gp_column.y_min", c.y_min);
+    require_position("gp_column.x_min", c.x_min, config_.spacing);
+    require_position("gp_column.y_min", c.y_min, config_.spacing);
     require_positive("gp_column.width", c.width);
     require_positive("gp_column.height", c.height);
     require_choice("gp_column.material", c.material, static_cast<int64_t>(materials_.size()));
@@ -183,8 +194,10 @@ int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, cons
                 throw make_error(GP_E_ARGUMENT, "%s[%lld] = %g: expected a finite number", name,
                                  static_cast<long long>(k), values[k]);
     };
-    check("x", px);
-    check("y", py);
+    for (int64_t k = 0; k < n; ++k) {
+        require_position(format_text("x[%lld]", static_cast<long long>(k)).c_str(), px[k], config_.spacing);
+        require_position(format_text("y[%lld]", static_cast<long long>(k)).c_str(), py[k], config_.spacing);
+    }
     check("vx", pvx);
     check("vy", pvy);
 
@@ -208,10 +221,10 @@ int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, cons
 }
 
 int32_t Scene::add_plate(const gp_plate &p) {
-    require_finite("gp_plate.x0", p.x0);
-    require_finite("gp_plate.y0", p.y0);
-    require_finite("gp_plate.x1", p.x1);
-    require_finite("gp_plate.y1", p.y1);
+    require_position("gp_plate.x0", p.x0, config_.spacing);
+    require_position("gp_plate.y0", p.y0, config_.spacing);
+    require_position("gp_plate.x1", p.x1, config_.spacing);
+    require_position("gp_plate.y1", p.y1, config_.spacing);
     const double length = std::hypot(p.x1 - p.x0, p.y1 - p.y0);
     require(std::isfinite(length) && length > 1e-6 * config_.spacing, "gp_plate length", length,
             "two ends that differ by more than 1e-6 of the spacing");

@@ -137,7 +137,8 @@ typedef struct gp_config {
     double jitter;               /* dl, columns' particles are displaced at random by up to this much in x and y;
                                     0 .. 0.5 (exclusive) [0] */
     int32_t preset;              /* GP_PRESET_..., set by gp_config_init */
-    double bulk_viscosity;       /* of volume changes under pressure, in rho c0 dl; 0: off; 0 .. 1 [the scheme's own: 0.2] */
+    double bulk_viscosity;       /* of volume changes under pressure and, inside the yield surface, of shear, in rho c0 dl:
+                                    it damps elastic waves and does not act at rest; 0: off; 0 .. 1 [the scheme's own: 0.2] */
 } gp_config;
 
 /* Fills *config with the defaults of the preset. size: sizeof(gp_config). */

@@ -20,7 +20,7 @@ template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t be
     Particles &p = world.particles;
     const double dt = world.clock.dt;
     const double half_penalty = 0.5 * world.constants.penalty;
-    const double bulk_viscosity =
+    const double kinematic_viscosity =
         world.scene->config().bulk_viscosity * world.constants.sound_speed * world.constants.spacing;
     double plastic = 0, internal = 0, damped = 0;
     for (int64_t i = begin; i < end; ++i) {
@@ -40,14 +40,21 @@ template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t be
         plastic +=
             ((before.xx + after.xx) * (trial.xx - after.xx) + (before.xy + after.xy) * (trial.xy - after.xy)) / stiff;
 
-        // Bulk viscosity damps what has no friction, volume changes; together with the pressure it never pulls.
+        // What friction does not damp: volume changes under pressure, and shear inside the yield surface, where the
+        // material is elastic. Together with the pressure the first never pulls; the second never takes the stress out of
+        // the yield surface. Neither acts on a material at rest.
         const double divergence = lxx + lyy;
-        const double viscous = -bulk_viscosity * world.material_of(i).density * divergence;
+        const double viscosity = kinematic_viscosity * world.material_of(i).density;
+        const double viscous = -viscosity * divergence;
         const double bulk = pressure > 0 ? (viscous > -pressure ? viscous : -pressure) : 0.0;
-        damped -= bulk * divergence;
-        internal += 2.0 * (after.xx * dxx + after.xy * dxy) - (pressure + bulk) * divergence;
+        const Deviator drag{2.0 * viscosity * dxx, 2.0 * viscosity * dxy};
+        const Deviator total{after.xx + drag.xx, after.xy + drag.xy};
+        const bool elastic = shrink == 1.0 && equivalent_stress(total) <= map.mu_s * pressure;
+        const Deviator s = elastic ? total : after;
+        damped += (elastic ? 2.0 * (drag.xx * dxx + drag.xy * dxy) : 0.0) - bulk * divergence;
+        internal += 2.0 * (s.xx * dxx + s.xy * dxy) - (pressure + bulk) * divergence;
 
-        const double axx = after.xx - pressure - bulk, ayy = -after.xx - pressure - bulk, axy = after.xy;
+        const double axx = s.xx - pressure - bulk, ayy = -s.xx - pressure - bulk, axy = s.xy;
         double cxx = axx * p.gxx[i] + axy * p.gxy[i];
         double cxy = axx * p.gxy[i] + axy * p.gyy[i];
         double cyx = axy * p.gxx[i] + ayy * p.gxy[i];
