@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "error.hpp"
 #include "parallel.hpp"
 
 namespace gp {
@@ -18,6 +19,10 @@ void CellGrid::sort(Particles &particles, double cell_size, int threads) {
     // A box too wide to number its cells gets wider cells: still right, only slower.
     const double widest = std::max(box_.x_max - box_.x_min, box_.y_max - box_.y_min);
     inverse_size_ = 1.0 / std::max(cell_size, widest / 1e9);
+    const double cells = widest * inverse_size_;
+    if (!(cells < 2e9 && inverse_size_ > 0))
+        throw make_error(GP_E_DIVERGED, "particles from (%g, %g) to (%g, %g) m cannot be sorted into cells of %g m",
+                         box_.x_min, box_.y_min, box_.x_max, box_.y_max, cell_size);
     columns_ = column_of(box_.x_max) + 1;
     rows_ = row_of(box_.y_max) + 1;
 

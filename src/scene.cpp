@@ -14,7 +14,7 @@ namespace {
 constexpr int64_t most_particles = std::numeric_limits<int32_t>::max() - 1;
 
 void check_config(const gp_config &c) {
-    require_positive("gp_config.spacing", c.spacing);
+    require_between("gp_config.spacing", c.spacing, 1e-9, 1e9);
     require_finite("gp_config.gravity_x", c.gravity_x);
     require_finite("gp_config.gravity_y", c.gravity_y);
     require_not_negative("gp_config.sound_speed", c.sound_speed);

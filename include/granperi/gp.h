@@ -106,7 +106,7 @@ enum {
 
 typedef struct gp_config {
     uint32_t struct_size;
-    double spacing;              /* m, particle distance dl; > 0 [0.0025] */
+    double spacing;              /* m, particle distance dl; 1e-9 .. 1e9 [0.0025] */
     double gravity_x;            /* m/s2 [0] */
     double gravity_y;            /* m/s2 [-9.81] */
     double sound_speed;          /* m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling
