@@ -71,7 +71,7 @@ template <class T> T complete(const T *given, const T &defaults, const char *nam
     require_pointer(name, given);
     uint32_t size;
     std::memcpy(&size, given, sizeof size);
-    if (size < 2 * sizeof(uint32_t))
+    if (size < 2 * sizeof(uint32_t) || size > 65536) // an uninitialised one must not be read past its end
         throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected the size that %s_init sets", name, size, name);
     T whole = defaults;
     std::memcpy(static_cast<void *>(&whole), given, std::min<std::size_t>(size, sizeof(T)));

@@ -225,7 +225,7 @@ GP_API gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32
 /* A rectangle of particles on the lattice of the spacing, the first half a spacing inside its corner. */
 GP_API gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id);
 
-/* n particles of any shape, each of the area spacing^2. x, y: shape (n), m; vx, vy: shape (n), m/s, or NULL for rest. */
+/* n >= 1 particles of any shape, each of the area spacing^2. x, y: shape (n), m; vx, vy: shape (n), m/s, or NULL for rest. */
 GP_API gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y,
                                   const double *vx, const double *vy, int32_t *id);
 
@@ -237,7 +237,7 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
 
 /* ------------------------------------------------------------------------------------------------ running */
 
-/* Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts time. After GP_E_DIVERGED positions and velocities are those of the last good step; after GP_E_IO
+/* Takes n time steps; n >= 0. After GP_E_MEMORY inside a step the simulation can be read, not stepped. GP_STOPPED if the callback stopped it. A scene without particles only counts time. After GP_E_DIVERGED positions and velocities are those of the last good step; after GP_E_IO
  * (of an output that writes by itself) the step is complete, the frame is lost and the run may go on. */
 GP_API gp_status gp_step(gp_sim *sim, int64_t n);
 
