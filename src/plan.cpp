@@ -19,7 +19,6 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
     t.penalty = constants.penalty > 0;
     t.collisions = scene.config().collision_distance > 0;
     t.diffusion = scene.config().density_diffusion > 0;
-    t.several_materials = constants.several_materials;
     return t;
 }
 

@@ -66,7 +66,6 @@ struct Constants {
     double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
-    bool several_materials;
 };
 
 class Scene {

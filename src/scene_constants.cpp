@@ -126,8 +126,6 @@ Constants Scene::constants() const {
         c.body_material.push_back(body.material);
         lightest = std::min(lightest, c.materials[static_cast<std::size_t>(body.material)].density);
     }
-    c.several_materials = std::any_of(bodies_.begin(), bodies_.end(),
-                                      [&](const Body &body) { return body.material != bodies_.front().material; });
     // One coefficient for all pairs keeps momentum; the lightest material keeps it stable.
     c.penalty = bodies_.empty()
                     ? 0.0
