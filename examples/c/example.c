@@ -35,11 +35,14 @@ static void print_help(const char *about, const example_options *o, const exampl
         printf("  --end SECONDS          end of the run [%g]\n", o->end);
     printf("  --threads N            threads, 0 for the OpenMP default [%g]\n", o->threads);
     printf("  --output FILE.h5       frames every 0.01 s, \"none\" for no file [%s]\n", o->output);
-    printf("  --lift-time SECONDS    a gate, lifted with uniform acceleration, clears the height\n"
-           "                         of its column in this time; 0: no gates [%g]\n",
-           o->lift_time);
-    printf("  --mu-s-degrees ANGLE   friction angle at rest [%g]\n", o->mu_s_degrees);
-    printf("  --mu-2-degrees ANGLE   friction angle of fast flow [%g]\n", o->mu_2_degrees);
+    if (!isnan(o->lift_time))
+        printf("  --lift-time SECONDS    a gate, lifted with uniform acceleration, clears the height\n"
+               "                         of its column in this time; 0: no gates [%g]\n",
+               o->lift_time);
+    if (!isnan(o->mu_s_degrees)) {
+        printf("  --mu-s-degrees ANGLE   friction angle at rest [%g]\n", o->mu_s_degrees);
+        printf("  --mu-2-degrees ANGLE   friction angle of fast flow [%g]\n", o->mu_2_degrees);
+    }
     printf("  --help                 print this and end\n");
 }
 
@@ -59,6 +62,11 @@ static double parse_number(const char *name, const char *text, double low, doubl
     return value;
 }
 
+void example_program(const char *path) {
+    const char *slash = strrchr(path, '/');
+    program = slash ? slash + 1 : path;
+}
+
 void example_parse(int argc, char **argv, const char *about, example_options *o, const example_extra *extra) {
     const example_extra known[] = {
         {"--resolution", "", "", &o->resolution, 1, 1e5, 1},    {"--end", "", "", &o->end, 1e-9, 1e6, 0},
@@ -68,8 +76,7 @@ void example_parse(int argc, char **argv, const char *about, example_options *o,
     const example_extra *option;
     size_t n;
     int k;
-    const char *slash = strrchr(argv[0], '/');
-    program = slash ? slash + 1 : argv[0];
+    example_program(argv[0]);
     for (k = 1; k < argc; ++k)
         if (strcmp(argv[k], "--help") == 0) {
             print_help(about, o, extra);
@@ -79,7 +86,7 @@ void example_parse(int argc, char **argv, const char *about, example_options *o,
         option = extra && strcmp(argv[k], extra->name) == 0 ? extra : NULL;
         for (n = 0; n < sizeof known / sizeof known[0]; ++n)
             if (strcmp(argv[k], known[n].name) == 0)
-                option = &known[n];
+                option = isnan(*known[n].value) && known[n].value != &o->end ? NULL : &known[n];
         if (!option && strcmp(argv[k], "--output") != 0)
             bad_option(argv[k], NULL, "unknown option");
         if (k + 1 == argc || argv[k + 1][0] == '\0')
@@ -99,10 +106,10 @@ void example_check(gp_status status, const char *call) {
     if (status >= 0)
         return;
     fprintf(stderr, "%s: %.*s: %s\n", program, (int)strcspn(call, "("), call, gp_last_error());
-    exit(status == GP_E_ARGUMENT ? 2 : 1);
+    exit(status == GP_E_ARGUMENT ? 2 : status == GP_E_UNSUPPORTED ? 3 : 1);
 }
 
-static void print_log(void *user, int32_t level, const char *text) {
+void example_log(void *user, int32_t level, const char *text) {
     (void)user;
     if (level >= GP_LOG_WARNING)
         fprintf(stderr, "%s: %s\n", program, text);
@@ -117,7 +124,7 @@ gp_sim *example_create(const example_options *options, double spacing, double gr
     config.spacing = spacing;
     config.threads = (int32_t)options->threads;
     CHECK(gp_create(&config, &sim));
-    CHECK(gp_set_log(sim, print_log, NULL));
+    CHECK(gp_set_log(sim, example_log, NULL));
 
     CHECK(gp_material_init(&material, sizeof material));
     material.grain_diameter = grain_diameter;

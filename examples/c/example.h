@@ -28,13 +28,21 @@ typedef struct example_extra {
 /* Glass beads, 1 s, gates that take 0.1 s; the file is only the default if this build of the library can write it. */
 example_options example_defaults(double resolution, double end, const char *output);
 
+/* Messages name the program by the last part of this path; example_parse sees to it. */
+void example_program(const char *path);
+
 /* Reads the command line. --help ends the program with status 0, a bad option with a message and status 2.
- * An end that is NAN stands for "depends on the case". extra may be NULL. */
+ * An end that is NAN stands for "depends on the case"; a lift_time or friction angles that are NAN are not options of
+ * this example. extra may be NULL. */
 void example_parse(int argc, char **argv, const char *about, example_options *options, const example_extra *extra);
 
-/* Ends the program with the library's message if a call failed: with status 2 if an argument was wrong, else 1. */
+/* Ends the program with the library's message if a call failed: with status 2 if an argument was wrong, 3 if this
+ * version does not have what was asked for, else 1. */
 void example_check(gp_status status, const char *call);
 #define CHECK(call) example_check((call), #call)
+
+/* For gp_set_log: the library's warnings to stderr. */
+void example_log(void *user, int32_t level, const char *text);
 
 /* A simulation of this spacing whose material 1 is glass beads of this diameter (m) with the friction of the options.
  */

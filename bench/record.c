@@ -1,0 +1,209 @@
+#include "record.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "../examples/c/example.h" /* CHECK */
+
+typedef struct files {
+    FILE *series, *surface, *section, *interface;
+} files;
+
+static FILE *open_table(const recording *r, const char *name, const char *header) {
+    char path[4096];
+    FILE *file;
+    if (strcmp(r->prefix, "none") == 0)
+        return NULL;
+    if (snprintf(path, sizeof path, "%s.%s.csv", r->prefix, name) >= (int)sizeof path)
+        bench_refuse("--output", r->prefix, "too long");
+    file = fopen(path, "w");
+    if (!file) {
+        fprintf(stderr, "cannot write %s\n", path);
+        exit(1);
+    }
+    fprintf(file, "%s\n", header);
+    return file;
+}
+
+static void close_table(FILE *file) {
+    if (file && (ferror(file) | fclose(file))) {
+        fprintf(stderr, "a table could not be written\n");
+        exit(1);
+    }
+}
+
+static gp_state state_of(gp_sim *sim) {
+    gp_state state;
+    state.struct_size = sizeof state;
+    CHECK(gp_get_state(sim, &state));
+    return state;
+}
+
+static double energy_of(const gp_state *s) {
+    return s->kinetic + s->potential + s->elastic + s->dissipated + s->plate_work + s->energy_error;
+}
+
+static double surface_at(gp_sim *sim, double x) {
+    double height;
+    CHECK(gp_get_surface(sim, 1, &x, &height));
+    return height;
+}
+
+static void write_series(FILE *file, gp_sim *sim, const recording *r, const gp_state *s, double energy) {
+    if (!file)
+        return;
+    fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d\n", s->time, s->peak_height, s->peak_x,
+            s->x_left, s->x_right, surface_at(sim, r->axis), s->rms_speed, s->max_speed, s->kinetic / energy,
+            s->energy_error / energy, s->max_pressure, s->at_rest);
+}
+
+/* Stations half a spacing apart from front to front. */
+static void write_surface(FILE *file, gp_sim *sim, const recording *r, const gp_state *s) {
+    const double step = r->spacing / 2;
+    const int64_t n = (int64_t)floor((s->x_right - s->x_left) / step) + 3;
+    double *x = malloc(2 * (size_t)n * sizeof *x), *height = x + n;
+    int64_t k;
+    if (!x || !file) {
+        free(x);
+        return;
+    }
+    for (k = 0; k < n; ++k)
+        x[k] = s->x_left + (double)(k - 1) * step;
+    CHECK(gp_get_surface(sim, n, x, height));
+    for (k = 0; k < n; ++k)
+        fprintf(file, "%.6g,%.6g,%.6g\n", s->time, x[k], height[k]);
+    free(x);
+}
+
+/* Mean velocity of the particles within one spacing of the section, in bins one spacing wide. */
+static void write_section(FILE *file, gp_sim *sim, const recording *r, const gp_state *s, double y) {
+    const int64_t n = (int64_t)floor((s->x_right - s->x_left) / r->spacing) + 1;
+    double *sums = calloc(3 * (size_t)n, sizeof *sums);
+    gp_particles p;
+    int64_t k, i;
+    if (!sums || !file) {
+        free(sums);
+        return;
+    }
+    p.struct_size = sizeof p;
+    CHECK(gp_get_particles(sim, GP_FIELD_POSITION | GP_FIELD_VELOCITY, &p));
+    for (i = 0; i < p.count; ++i) {
+        k = (int64_t)floor((p.x[i] - s->x_left) / r->spacing);
+        if (fabs(p.y[i] - y) > r->spacing || k < 0 || k >= n)
+            continue;
+        sums[3 * k] += 1;
+        sums[3 * k + 1] += p.vx[i];
+        sums[3 * k + 2] += hypot(p.vx[i], p.vy[i]);
+    }
+    for (k = 0; k < n; ++k)
+        if (sums[3 * k] > 0)
+            fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g,%g\n", s->time, y, s->x_left + ((double)k + 0.5) * r->spacing,
+                    sums[3 * k + 1] / sums[3 * k], sums[3 * k + 2] / sums[3 * k], sums[3 * k]);
+    free(sums);
+}
+
+/* Rows a quarter of a spacing apart; those where the columns do not touch are left out. */
+static void write_interface(FILE *file, gp_sim *sim, const recording *r, const gp_state *s) {
+    const double step = r->spacing / 4;
+    const int64_t n = (int64_t)ceil(s->peak_height / step) + 1;
+    double *y = malloc(2 * (size_t)n * sizeof *y), *x = y + n;
+    int64_t k;
+    if (!y || !file || r->columns < 2) {
+        free(y);
+        return;
+    }
+    for (k = 0; k < n; ++k)
+        y[k] = ((double)k + 0.5) * step;
+    CHECK(gp_get_interface(sim, 0, 1, n, y, x));
+    for (k = 0; k < n; ++k)
+        if (!isnan(x[k]))
+            fprintf(file, "%.6g,%.6g,%.6g\n", s->time, y[k], x[k]);
+    free(y);
+}
+
+static void write_profiles(const files *f, gp_sim *sim, const recording *r, const gp_state *s) {
+    int k;
+    write_surface(f->surface, sim, r, s);
+    write_interface(f->interface, sim, r, s);
+    for (k = 0; k < r->sections.count; ++k)
+        write_section(f->section, sim, r, s, r->sections.value[k]);
+}
+
+static void print_summary(const recording *r, gp_sim *sim, const gp_state *s, double energy, double rest_since,
+                          double highest_pressure, double cpu_seconds) {
+    const double steps = (double)s->n_particles * (double)s->step;
+    printf("version             %s\n", gp_version_string());
+    printf("time                %.6g s\n", s->time);
+    printf("particles           %lld\n", (long long)s->n_particles);
+    printf("steps               %lld\n", (long long)s->step);
+    printf("spacing             %.6g m\n", r->spacing);
+    printf("sound_speed         %.6g m/s\n", s->sound_speed);
+    printf("peak_height         %.6g m\n", s->peak_height);
+    printf("axis_height         %.6g m\n", surface_at(sim, r->axis));
+    printf("x_left              %.6g m\n", s->x_left);
+    printf("x_right             %.6g m\n", s->x_right);
+    if (r->reference > 0) {
+        const double right = (s->x_right - r->right) / r->reference, left = (r->left - s->x_left) / r->reference;
+        printf("run_out             %.6g L0\n", r->sides == 1 ? right : (left + right) / 2);
+        printf("reference_length    %.6g m\n", r->reference);
+    }
+    printf("rms_speed           %.6g m/s\n", s->rms_speed);
+    printf("kinetic_share       %.6g E0\n", s->kinetic / energy);
+    printf("energy_initial      %.6g J/m\n", energy);
+    printf("energy_error_share  %.6g E0\n", s->energy_error / energy);
+    printf("highest_pressure    %.6g Pa\n", highest_pressure);
+    printf("collisions          %lld\n", (long long)s->collisions);
+    printf("at_rest             %d\n", s->at_rest);
+    if (s->at_rest)
+        printf("at_rest_since       %.6g s\n", rest_since);
+    printf("cpu_seconds         %.3f s\n", cpu_seconds);
+    printf("particle_steps_rate %.4g per CPU second\n", cpu_seconds > 0 ? steps / cpu_seconds : 0);
+}
+
+void record_run(gp_sim *sim, const recording *r) {
+    const clock_t begin = clock(); /* the CPU time of all threads, the recording included */
+    const double nearly = 1e-9;    /* s: times this close are the same */
+    files f;
+    gp_state s = state_of(sim);
+    const double energy = energy_of(&s);
+    double rest_since = 0, highest_pressure = s.max_pressure;
+    int was_at_rest = 0, k;
+    long rows = 0;
+    f.series = open_table(r, "series",
+                          "time,peak_height,peak_x,x_left,x_right,axis_height,rms_speed,max_speed,kinetic_share,"
+                          "energy_error_share,max_pressure,at_rest");
+    f.surface = open_table(r, "surface", "time,x,height");
+    f.section = open_table(r, "section", "time,y,x,vx,speed,particles");
+    f.interface = open_table(r, "interface", "time,y,x");
+    for (;;) {
+        const double row = fmin((double)rows * r->interval, r->end);
+        double next = r->end;
+        highest_pressure = fmax(highest_pressure, s.max_pressure);
+        if (s.at_rest && !was_at_rest)
+            rest_since = s.time;
+        was_at_rest = s.at_rest;
+        for (k = 0; k < r->times.count; ++k)
+            if (fabs(r->times.value[k] - s.time) < nearly)
+                write_profiles(&f, sim, r, &s);
+        if (s.time >= row - nearly) {
+            write_series(f.series, sim, r, &s, energy);
+            ++rows;
+        }
+        if (s.time >= r->end)
+            break;
+        next = fmin(next, (double)rows * r->interval);
+        for (k = 0; k < r->times.count; ++k)
+            if (r->times.value[k] > s.time + nearly)
+                next = fmin(next, r->times.value[k]);
+        CHECK(gp_run(sim, next));
+        s = state_of(sim);
+    }
+    print_summary(r, sim, &s, energy, rest_since, highest_pressure, (double)(clock() - begin) / CLOCKS_PER_SEC);
+    close_table(f.series);
+    close_table(f.surface);
+    close_table(f.section);
+    close_table(f.interface);
+}
