@@ -4,6 +4,7 @@
  * public code of A. Choudhury in the Basilisk wiki. Beside the mean velocity it prints the exact profile of the mu(I) law. */
 #include <math.h>
 #include <stdio.h>
+#include <time.h>
 
 #include "example.h"
 
@@ -101,7 +102,7 @@ static gp_sim *create(const cell *c, const example_options *options, double spac
 int main(int argc, char **argv) {
     enum { SAMPLES = 200, MOST_BINS = 1000 };
     double number = 1, sum[MOST_BINS] = {0}, count[MOST_BINS] = {0}, tau, width, spacing, error = 0;
-    example_options options = example_defaults(20, NAN, "none");
+    example_options options = example_defaults(20, NAN, NULL);
     const example_extra case_option = {"--case",
                                        "N",
                                        "1: plate at 0.0003 m/s, 102.3 Pa; 2: at 0.0013 m/s\n"
@@ -110,6 +111,7 @@ int main(int argc, char **argv) {
                                        1,
                                        3,
                                        1};
+    const clock_t begin = clock(); /* the CPU time of all threads */
     gp_particles particles;
     gp_load load;
     gp_state state;
@@ -163,6 +165,7 @@ int main(int argc, char **argv) {
     printf("shear_stress        %.6g Pa, exact %.6g Pa\n", fabs(load.fx) / width, tau);
     printf("plate_displacement  %.6g m\n", load.dy);
     printf("error               %.6g largest difference of u/U\n", error);
+    printf("cpu_seconds         %.2f s\n", (double)(clock() - begin) / CLOCKS_PER_SEC);
     gp_destroy(sim);
     return 0;
 }

@@ -19,7 +19,7 @@ example_options example_defaults(double resolution, double end, const char *outp
     options.lift_time = 0.1;
     options.mu_s_degrees = 21;
     options.mu_2_degrees = 32;
-    options.output = gp_has_feature("hdf5") ? output : "none";
+    options.output = gp_has_feature("hdf5") || !output ? output : "none";
     return options;
 }
 
@@ -34,7 +34,8 @@ static void print_help(const char *about, const example_options *o, const exampl
     else
         printf("  --end SECONDS          end of the run [%g]\n", o->end);
     printf("  --threads N            threads, 0 for the OpenMP default [%g]\n", o->threads);
-    printf("  --output FILE.h5       frames every 0.01 s, \"none\" for no file [%s]\n", o->output);
+    if (o->output)
+        printf("  --output FILE.h5       frames every 0.01 s, \"none\" for no file [%s]\n", o->output);
     if (!isnan(o->lift_time))
         printf("  --lift-time SECONDS    a gate, lifted with uniform acceleration, clears the height\n"
                "                         of its column in this time; 0: no gates [%g]\n",
@@ -87,7 +88,7 @@ void example_parse(int argc, char **argv, const char *about, example_options *o,
         for (n = 0; n < sizeof known / sizeof known[0]; ++n)
             if (strcmp(argv[k], known[n].name) == 0)
                 option = isnan(*known[n].value) && known[n].value != &o->end ? NULL : &known[n];
-        if (!option && strcmp(argv[k], "--output") != 0)
+        if (!option && (!o->output || strcmp(argv[k], "--output") != 0))
             bad_option(argv[k], NULL, "unknown option");
         if (k + 1 == argc || argv[k + 1][0] == '\0')
             bad_option(argv[k], NULL, "expected a value after it");

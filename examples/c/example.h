@@ -32,8 +32,8 @@ example_options example_defaults(double resolution, double end, const char *outp
 void example_program(const char *path);
 
 /* Reads the command line. --help ends the program with status 0, a bad option with a message and status 2.
- * An end that is NAN stands for "depends on the case"; a lift_time or friction angles that are NAN are not options of
- * this example. extra may be NULL. */
+ * An end that is NAN stands for "depends on the case"; a lift_time or friction angles that are NAN and an output
+ * that is NULL are not options of this example. extra may be NULL. */
 void example_parse(int argc, char **argv, const char *about, example_options *options, const example_extra *extra);
 
 /* Ends the program with the library's message if a call failed: with status 2 if an argument was wrong, 3 if this

@@ -1,0 +1,127 @@
+"""What a run left behind, as one JSON file, and how to read it."""
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from runs import Run
+
+ROOT = Path(__file__).resolve().parents[2]
+DIRECTORY = ROOT / "results" / "validation"
+TABLES = ("series", "surface", "section", "interface")
+
+
+class Result:
+    """A run that went well. Times are looked up to a thousandth of a second."""
+
+    def __init__(self, data: dict[str, Any]):
+        self.name: str = data["name"]
+        self.source: str = data["source"]
+        self.commit: str = data["commit"]
+        self.output: str = data["output"]
+        self.summary: dict[str, float] = data["summary"]
+        self.tables = {name: {column: np.array(values, dtype=float) for column, values in table.items()}
+                       for name, table in data["tables"].items()}
+
+    @property
+    def cpu(self) -> float:
+        """CPU s of the whole run."""
+        return self.summary["cpu_seconds"]
+
+    def cpu_to(self, time: float) -> float:
+        """CPU s up to this time. The sound speed, hence the time step, does not change within a run."""
+        return self.cpu * min(1.0, time / self.summary["time"])
+
+    def at(self, column: str, time: float) -> float:
+        """A column of the series at the row of this time; NaN if the run is shorter."""
+        series = self.tables["series"]
+        if len(series["time"]) == 0:
+            return math.nan
+        row = int(np.argmin(np.abs(series["time"] - time)))
+        near = abs(series["time"][row] - time) < 1.01 * max(1e-3, np.diff(series["time"]).max() / 2)
+        return float(series[column][row]) if near else math.nan
+
+    def select(self, table: str, time: float, **equal: float) -> dict[str, np.ndarray]:
+        """Rows of a table at this time (and these values of other columns)."""
+        columns = self.tables.get(table, {})
+        if not columns:
+            return {}
+        chosen = np.abs(columns["time"] - time) < 1e-3
+        for name, value in equal.items():
+            chosen &= np.abs(columns[name] - value) < 1e-9
+        return {name: values[chosen] for name, values in columns.items()}
+
+    def surface(self, time: float) -> tuple[np.ndarray, np.ndarray]:
+        rows = self.select("surface", time)
+        return (rows["x"], rows["height"]) if rows else (np.array([]), np.array([]))
+
+    def interface_angle(self, time: float, low: float, high: float) -> float:
+        """Degrees to the vertical of the line fitted to the interface between two fractions of its height; NaN for none.
+        Positive: it leans to the right."""
+        rows = self.select("interface", time)
+        if not rows or len(rows["y"]) < 4:
+            return math.nan
+        top = rows["y"].max()
+        inside = (rows["y"] >= low * top) & (rows["y"] <= high * top)
+        if inside.sum() < 4:
+            return math.nan
+        return math.degrees(math.atan(np.polyfit(rows["y"][inside], rows["x"][inside], 1)[0]))
+
+
+def path_of(run: Run, directory: Path = DIRECTORY) -> Path:
+    return directory / f"{run.name}.json"
+
+
+def load(run: Run, directory: Path = DIRECTORY) -> Result | None:
+    """The result of a run; None if it is not there or did not go well."""
+    data = load_raw(run, directory)
+    return Result(data) if data and data["status"] == "ok" else None
+
+
+def load_raw(run: Run, directory: Path = DIRECTORY) -> dict[str, Any] | None:
+    path = path_of(run, directory)
+    if not path.exists():
+        return None
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def save(run: Run, data: dict[str, Any], directory: Path = DIRECTORY) -> None:
+    """Under another name first: a file that exists is whole."""
+    directory.mkdir(parents=True, exist_ok=True)
+    path = path_of(run, directory)
+    partial = path.with_suffix(".partial")
+    partial.write_text(json.dumps(data), encoding="utf-8")
+    partial.replace(path)
+
+
+def read_summary(text: str) -> dict[str, float]:
+    """Lines of "name value unit"; those whose value is not a number are left out."""
+    summary = {}
+    for line in text.splitlines():
+        words = line.split()
+        if len(words) < 2 or not words[0].isidentifier():
+            continue
+        try:
+            summary[words[0]] = float(words[1])
+        except ValueError:
+            continue
+    return summary
+
+
+def read_tables(prefix: Path) -> dict[str, dict[str, list[float]]]:
+    """The tables that a scene wrote, by name and column."""
+    tables = {}
+    for name in TABLES:
+        path = prefix.with_name(f"{prefix.name}.{name}.csv")
+        if not path.exists():
+            continue
+        with path.open(encoding="utf-8", newline="") as lines:
+            rows = list(csv.reader(lines))
+        header, body = rows[0], rows[1:]
+        tables[name] = {column: [float(row[k]) for row in body] for k, column in enumerate(header)}
+    return tables
