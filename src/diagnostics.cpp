@@ -45,6 +45,7 @@ gp_state measure_state(const World &world) {
     s.diffusion_dissipated = world.ledger.diffusion;
     s.bulk_dissipated = world.ledger.bulk;
     s.collision_dissipated = world.ledger.collisions;
+    s.channel_dissipated = world.ledger.side_walls;
 
     double speed2 = 0;
     for (int64_t i = 0; i < p.count; ++i) {

@@ -10,12 +10,11 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
     Traits t;
     t.particles = scene.particle_count() > 0;
     t.plates = !scene.plates().empty();
-    t.moving_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [](const PlateSpec &plate) {
-        return plate.velocity != Vector::Zero() || !plate.table.empty();
-    });
     t.coulomb_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [](const PlateSpec &plate) {
         return plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0;
     });
+    t.channel = scene.config().channel_width > 0;
+    t.side_walls = scene.config().channel_width > 0 && scene.config().channel_friction > 0;
     t.penalty = constants.penalty > 0;
     t.collisions = scene.config().collision_distance > 0;
     t.diffusion = scene.config().density_diffusion > 0;
@@ -42,6 +41,7 @@ std::vector<PlannedStage> make_stages(const Traits &t) {
     const char *no_particles = "the scene has no particles";
     const char *no_plates = "the scene has no plates";
     const char *none_near = "no plate is within reach of material";
+    const char *no_side_walls = t.channel ? "channel_friction is 0" : "channel_width is 0";
     const bool walls = t.particles && t.plates;
     // clang-format off
     return {
@@ -73,7 +73,9 @@ std::vector<PlannedStage> make_stages(const Traits &t) {
         // reads contact forces; writes velocity, position
         {"wall_friction", walls && t.coulomb_plates, "a plate has Coulomb friction", "no plate has Coulomb friction",
          stages::wall_friction, in_reach, none_near},
-        {"side_wall_friction", false, "", "channel_width is 0", nullptr, nullptr, ""},
+        // reads pressure; writes velocity, position
+        {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",
+         t.particles ? no_side_walls : no_particles, stages::side_wall_friction, nullptr, ""},
         // reads position; writes velocity, position
         {"collide", t.particles && t.collisions, "collision_distance > 0", "collision_distance is 0",
          stages::collide, nullptr, ""},

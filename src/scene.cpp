@@ -56,8 +56,6 @@ void check_config(const gp_config &c) {
                     c.stress == GP_STRESS_REGULARIZED ? "GP_STRESS_REGULARIZED" : "GP_STRESS_IMPLICIT");
     if (c.density != GP_DENSITY_CONTINUITY)
         unsupported("gp_config.density", "GP_DENSITY_NUMBER");
-    if (c.channel_width > 0)
-        unsupported("gp_config.channel_width", "friction of side walls");
     if (c.periodic_x_max > c.periodic_x_min)
         unsupported("gp_config.periodic_x_max", "periodicity");
 #ifndef GP_WITH_OPENMP
@@ -242,10 +240,21 @@ int32_t Scene::add_plate(const gp_plate &p) {
     require_not_negative("gp_plate.mass_per_length", p.mass_per_length);
     require(p.mass_per_length == 0 || p.normal_pressure > 0, "gp_plate.mass_per_length", p.mass_per_length,
             "0 as long as normal_pressure is 0");
-    if (p.normal_pressure > 0)
-        unsupported("gp_plate.normal_pressure", "a plate under load");
 
-    PlateSpec spec{Segment(p.x0, p.y0, p.x1, p.y1), p.friction, p.wall_mu, {p.vx, p.vy}, {}, Vector::Zero()};
+    PlateSpec spec{Segment(p.x0, p.y0, p.x1, p.y1),
+                   p.friction,
+                   p.wall_mu,
+                   {p.vx, p.vy},
+                   {},
+                   Vector::Zero(),
+                   p.normal_pressure,
+                   p.mass_per_length};
+    if (p.normal_pressure > 0) {
+        if (p.n_knots > 0)
+            throw make_error(GP_E_ARGUMENT, "gp_plate.n_knots = %lld: expected 0 for a plate with normal_pressure",
+                             static_cast<long long>(p.n_knots));
+        require_tangential(spec, {p.vx, p.vy}, "gp_plate");
+    }
     if (p.n_knots > 0) {
         require(p.vx == 0 && p.vy == 0, p.vx != 0 ? "gp_plate.vx" : "gp_plate.vy", p.vx != 0 ? p.vx : p.vy,
                 "0 when the plate has a displacement table");
@@ -267,6 +276,16 @@ int32_t Scene::add_plate(const gp_plate &p) {
     }
     plates_.push_back(std::move(spec));
     return static_cast<int32_t>(plates_.size()) - 1;
+}
+
+void require_tangential(const PlateSpec &plate, const Vector &velocity, const char *name) {
+    const double normal = plate.segment.normal.dot(velocity);
+    if (plate.load > 0 && std::abs(normal) > 1e-12 * velocity.norm())
+        throw make_error(
+            GP_E_ARGUMENT,
+            "%s velocity = (%g, %g), %g along the normal: expected 0 along the normal of a plate that moves "
+            "there under its load",
+            name, velocity.x(), velocity.y(), normal);
 }
 
 void Scene::drive_plate(int32_t plate, const Vector &velocity) {

@@ -33,7 +33,12 @@ struct PlateSpec {
     Vector velocity;
     MotionTable table;
     Vector start; // displacement at time 0, of a plate without a table
+    double load;  // Pa on its back, towards the material; 0: the motion is prescribed
+    double mass;  // kg/m2 of a loaded plate; 0: chosen with the constants
 };
+
+// Throws if a velocity prescribed for a loaded plate has a part along its normal. name: of the argument.
+void require_tangential(const PlateSpec &plate, const Vector &velocity, const char *name);
 
 // A column or a set of particles from the host.
 struct Body {
@@ -63,6 +68,8 @@ struct Constants {
     double wave_speed;             // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), m/s
     double fall_height;            // m, that the sound speed is based on
     double time_scale;             // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
+    double plate_mass;             // kg/m2, of a loaded plate that has none of its own
+    double plate_step;             // s, largest step that is stable for the lightest loaded plate
     double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
@@ -96,6 +103,7 @@ public:
     std::vector<int32_t> column;
 
 private:
+    double load_on_face(const Body &body, const Vector &outward) const; // Pa, of a loaded plate there
     bool face_is_supported(const Body &body, const Vector &outward) const;
     void reserve(int64_t more);
 

@@ -156,6 +156,7 @@ void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
     require_choice("plate", plate, static_cast<int64_t>(scene_.plates().size()));
     require_finite("vx", vx);
     require_finite("vy", vy);
+    require_tangential(scene_.plates()[plate], {vx, vy}, "plate");
     if (started_) {
         world_->walls.plates[plate].drive(world_->clock.time, {vx, vy});
         ++epoch_;

@@ -8,7 +8,7 @@
 
 namespace gp {
 
-Vector Plate::displacement(double time) const {
+Vector Plate::prescribed_displacement(double time) const {
     if (driven_)
         return driven_from_ + (time - driven_since_) * driven_velocity_;
     if (!spec_->table.empty())
@@ -16,14 +16,29 @@ Vector Plate::displacement(double time) const {
     return spec_->start + time * spec_->velocity;
 }
 
+Vector Plate::displacement(double time) const {
+    return prescribed_displacement(time) + fallen_ * spec_->segment.normal;
+}
+
+void Plate::fall(double dt, double default_mass) {
+    const Segment &s = spec_->segment;
+    const double mass = s.length * (spec_->mass > 0 ? spec_->mass : default_mass); // kg/m
+    const double change = dt * (spec_->load * s.length + s.normal.dot(force)) / mass;
+    fall_speed_ += change;
+    fallen_ += dt * fall_speed_;
+    velocity_ += change * s.normal;
+}
+
 void Plate::drive(double time, const Vector &velocity) {
-    driven_from_ = displacement(time);
+    driven_from_ = prescribed_displacement(time);
     driven_since_ = time;
     driven_velocity_ = velocity;
     driven_ = true;
 }
 
 bool Plate::moves_after(double time) const {
+    if (loaded())
+        return true;
     if (driven_)
         return driven_velocity_ != Vector::Zero();
     if (!spec_->table.empty())
@@ -34,11 +49,13 @@ bool Plate::moves_after(double time) const {
 void Plate::place(double time, double dt) {
     const Vector now = displacement(time);
     placed_ = spec_->segment.moved(now);
-    velocity_ = (displacement(time + dt) - now) / dt;
-    if (!driven_ && spec_->table.empty())
-        velocity_ = spec_->velocity; // free of rounding
-    else if (driven_)
+    if (driven_)
         velocity_ = driven_velocity_;
+    else if (spec_->table.empty())
+        velocity_ = spec_->velocity;
+    else
+        velocity_ = (spec_->table.displacement(time + dt) - spec_->table.displacement(time)) / dt;
+    velocity_ += fall_speed_ * spec_->segment.normal;
 }
 
 int64_t Walls::count_overlapping(const Particles &particles, double margin) const {

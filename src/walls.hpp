@@ -31,6 +31,9 @@ public:
 
     const PlateSpec &spec() const { return *spec_; }
     const Segment &segment() const { return placed_; } // where place() put it
+    bool loaded() const { return spec_->load > 0; }
+    // Moves a loaded plate along its normal: load and the material's force over one step. default_mass: kg/m2.
+    void fall(double dt, double default_mass);
     const Vector &velocity() const { return velocity_; }
 
     Vector force = Vector::Zero();   // N/m, of the material on the plate over the last step
@@ -39,10 +42,13 @@ public:
     double gap = 0;                  // m, by which plate and material are out of each other's reach at least
 
 private:
+    Vector prescribed_displacement(double time) const;
+
     const PlateSpec *spec_;
     bool driven_ = false;
     double driven_since_ = 0;
     Vector driven_from_, driven_velocity_;
+    double fallen_ = 0, fall_speed_ = 0; // m, m/s, along the normal, of a loaded plate
     Segment placed_ = spec_->segment;
     Vector velocity_ = Vector::Zero();
 };

@@ -29,6 +29,7 @@ struct Ledger {
     double diffusion = 0;        // the part of density diffusion
     double bulk = 0;             // the part of the bulk viscosity
     double collisions = 0;       // the part of the collision safeguard
+    double side_walls = 0;       // the part of the friction of side walls
     double plate_work = 0;       // done by the material on the plates
     double largest_kinetic = 0;
 };
@@ -42,6 +43,7 @@ struct alignas(64) BlockSums {
     double internal_power = 0; // W/m, sum of V sigma:L
     double acceleration2 = 0;  // m2/s4, sum
     double collision_loss = 0; // J/m
+    double side_walls = 0;     // J/m, dissipated by the friction of side walls
     int64_t collisions = 0;    // counted from both sides
     double kinetic = 0;        // J/m
 };

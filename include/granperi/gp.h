@@ -127,7 +127,8 @@ typedef struct gp_config {
                                     [the scheme's own: 0.02] */
     double density_diffusion;    /* smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1
                                     [the scheme's own: 0.2] */
-    double channel_width;        /* m between the side walls; 0: none; else not yet: GP_E_UNSUPPORTED [0] */
+    double channel_width;        /* m, W between the side walls; 0: none. Their friction, averaged over the width, is
+                                    2 channel_friction p / W per volume against the velocity, and holds what it can [0] */
     double channel_friction;     /* Coulomb coefficient of the side walls; needs channel_width [0] */
     double periodic_x_min;       /* m; with periodic_x_max > periodic_x_min the scene is periodic in x; */
     double periodic_x_max;       /* not yet: GP_E_UNSUPPORTED unless both are equal [0, 0] */
@@ -171,7 +172,8 @@ typedef struct gp_column {
     double vx, vy;            /* m/s, initial velocity [0, 0] */
     int32_t initial_pressure; /* GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the
                                  opposite face, for each face of normal n into which gravity presses and along which
-                                 plates cover at least half; nothing for a face that no plate supports */
+                                 plates cover at least half; nothing for a face that no plate supports. A loaded
+                                 plate on a column between two plates adds its normal_pressure */
 } gp_column;
 
 /* Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column). */
@@ -199,8 +201,13 @@ typedef struct gp_plate {
     const double *knot_t;   /* s, shape (n_knots), strictly increasing */
     const double *knot_x;   /* m, shape (n_knots), displacement; linear between knots, at rest before and after */
     const double *knot_y;   /* m, shape (n_knots) */
-    double normal_pressure; /* Pa; 0: the motion is prescribed; else not yet: GP_E_UNSUPPORTED [0] */
-    double mass_per_length; /* kg/m2 of a loaded plate; only with normal_pressure [0] */
+    double normal_pressure; /* Pa, a load on the plate's back: the plate moves along its normal as a rigid body under this
+                               load and the material's reaction (its own weight is part of the load), and along its
+                               tangent as prescribed: vx, vy then have no normal part, and there is no table.
+                               0: all of the motion is prescribed [0] */
+    double mass_per_length; /* kg/m2, inertia of a loaded plate per length; only with normal_pressure. 0: light, as half
+                               a spacing of the heaviest material: it follows its load at once. A heavy plate
+                               rings on confined material, which damps its slow motion little [0] */
 } gp_plate;
 
 /* Fills *plate with a fixed no-slip plate: its ends have to be set. size: sizeof(gp_plate). */
@@ -339,6 +346,7 @@ typedef struct gp_state {
     double diffusion_dissipated;   /* J/m, the part that density diffusion took */
     double bulk_dissipated;        /* J/m, the part that the bulk viscosity took */
     double collision_dissipated;   /* J/m, the part that collisions took */
+    double channel_dissipated;     /* J/m, the part that the friction of side walls took */
 } gp_state;
 
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);

@@ -52,6 +52,26 @@ void measure_velocities(World &world) {
 void account(World &world) {
     const Particles &p = world.particles;
     const double dt = world.clock.dt;
+    // Power balance of the force stage, exact by the adjoint operators: with the ghosts' share G of sigma : L,
+    //   total = -internal + sum (G + f . u) over contacts - penalty,
+    // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface.
+    double contact_power = 0, plate_power = 0;
+    for (const Contact &contact : world.walls.contacts) {
+        Plate &plate = world.walls.plates[contact.plate];
+        const int64_t i = contact.particle;
+        const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
+        plate.force += reaction;
+        const Vector &t = plate.segment().tangent;
+        plate.torque += plate.segment().along({p.x[i], p.y[i]}) * (t.x() * reaction.y() - t.y() * reaction.x());
+        contact_power += p.volume * (contact.ghost_power + contact.power);
+        plate_power -= reaction.dot(plate.velocity());
+    }
+    for (Plate &plate : world.walls.plates) {
+        plate.impulse += dt * plate.force;
+        if (plate.loaded())
+            plate.fall(dt, world.constants.plate_mass);
+    }
+
     measure_velocities(world);
     world.shifted += world.velocity_span * dt;
     for (Plate &plate : world.walls.plates)
@@ -69,37 +89,23 @@ void account(World &world) {
         total.internal_power += block.internal_power;
         total.acceleration2 += block.acceleration2;
         total.collision_loss += block.collision_loss;
+        total.side_walls += block.side_walls;
         total.collisions += block.collisions;
         total.kinetic += block.kinetic;
     }
 
-    // Power balance of the force stage, exact by the adjoint operators: with the ghosts' share G of sigma : L,
-    //   total = -internal + sum (G + f . u) over contacts - penalty,
-    // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface.
-    double contact_power = 0, plate_power = 0;
-    for (const Contact &contact : world.walls.contacts) {
-        Plate &plate = world.walls.plates[contact.plate];
-        const int64_t i = contact.particle;
-        const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
-        plate.force += reaction;
-        const Vector &t = plate.segment().tangent;
-        plate.torque += plate.segment().along({p.x[i], p.y[i]}) * (t.x() * reaction.y() - t.y() * reaction.x());
-        contact_power += p.volume * (contact.ghost_power + contact.power);
-        plate_power -= reaction.dot(plate.velocity());
-    }
     const double penalty = dt * (contact_power - total.internal_power - total.total_power);
-    for (Plate &plate : world.walls.plates)
-        plate.impulse += dt * plate.force;
 
     Ledger &ledger = world.ledger;
     ledger.plate_work -= dt * plate_power;
-    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.collision_loss + penalty +
-                         dt * (plate_power - contact_power);
+    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.collision_loss + total.side_walls +
+                         penalty + dt * (plate_power - contact_power);
     ledger.penalty += penalty;
     ledger.walls += dt * (plate_power - contact_power);
     ledger.bulk += total.bulk;
     ledger.diffusion += total.diffused;
     ledger.collisions += total.collision_loss;
+    ledger.side_walls += total.side_walls;
     ledger.largest_kinetic = std::max(ledger.largest_kinetic, total.kinetic);
     world.collisions += total.collisions / 2;
     world.plastic_power = total.plastic / dt;

@@ -19,7 +19,7 @@ constexpr double flow_share = 0.25;
 } // namespace
 
 double stable_dt(const Constants &constants) {
-    return stable_cfl * constants.spacing / constants.wave_speed;
+    return std::min(stable_cfl * constants.spacing / constants.wave_speed, constants.plate_step);
 }
 
 void choose_dt(World &world) {
@@ -29,7 +29,7 @@ void choose_dt(World &world) {
     double dt = config.time_step;
     if (dt == 0) {
         const double cfl = config.cfl > 0 ? config.cfl : default_cfl;
-        dt = cfl * c.spacing / c.wave_speed;
+        dt = std::min(cfl * c.spacing / c.wave_speed, c.plate_step);
         if (world.velocity_span > 0)
             dt = std::min(dt, flow_share * c.spacing / world.velocity_span);
     }

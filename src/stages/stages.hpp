@@ -32,6 +32,8 @@ void force(World &world);
 void integrate(World &world);
 // Coulomb friction of plates.
 void wall_friction(World &world);
+// Coulomb friction of the channel's side walls.
+void side_wall_friction(World &world);
 // Collisions of particles that come too close (2.9, 2.10).
 void collide(World &world);
 // The same against plates: nothing passes through.
