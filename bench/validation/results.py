@@ -125,3 +125,26 @@ def read_tables(prefix: Path) -> dict[str, dict[str, list[float]]]:
         header, body = rows[0], rows[1:]
         tables[name] = {column: [float(row[k]) for row in body] for k, column in enumerate(header)}
     return tables
+
+
+class Collection:
+    """All results of a directory, read when asked for; it remembers what was asked for and was not there."""
+
+    def __init__(self, directory: Path = DIRECTORY):
+        self.directory = directory
+        self.found: dict[str, Result] = {}
+        self.absent: dict[str, str] = {}  # name: why
+
+    def __call__(self, run: Run) -> Result | None:
+        if run.name in self.found:
+            return self.found[run.name]
+        raw = load_raw(run, self.directory)
+        if raw is None:
+            self.absent[run.name] = "not run"
+        elif tuple(raw["arguments"]) != run.arguments:
+            self.absent[run.name] = "its options have changed since it was run"
+        elif raw["status"] != "ok":
+            self.absent[run.name] = f"{raw['status']}: {raw['message']}"
+        else:
+            self.found[run.name] = Result(raw)
+        return self.found.get(run.name)

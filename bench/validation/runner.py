@@ -91,9 +91,9 @@ class Progress:
                   flush=True)
 
 
-def is_current(run: Run, source: str, accept_older: bool) -> bool:
+def is_current(run: Run, directory: Path, source: str, accept_older: bool) -> bool:
     """Whether there is a good result of the same options from the same sources."""
-    data = results.load_raw(run)
+    data = results.load_raw(run, directory)
     return (data is not None and data["status"] == "ok" and tuple(data["arguments"]) == run.arguments and
             (accept_older or data["source"] == source))
 
@@ -101,6 +101,7 @@ def is_current(run: Run, source: str, accept_older: bool) -> bool:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=Path, default=results.ROOT / "build", help="where the programs are [build]")
+    parser.add_argument("--results", type=Path, default=results.DIRECTORY, help="where results go [results/validation]")
     parser.add_argument("--quick", action="store_true", help=f"only runs of an estimated {QUICK:g} CPU s or less")
     parser.add_argument("--only", metavar="TEXT", help="only runs with this in their name")
     parser.add_argument("--accept-older", action="store_true", help="keep results of other states of the sources")
@@ -110,7 +111,7 @@ def main() -> int:
     source, commit = source_hash(results.ROOT), commit_of(results.ROOT)
     wanted = [run for run in all_runs() if (not arguments.quick or run.cost <= QUICK) and
               (not arguments.only or arguments.only in run.name)]
-    missing = [run for run in wanted if not is_current(run, source, arguments.accept_older)]
+    missing = [run for run in wanted if not is_current(run, arguments.results, source, arguments.accept_older)]
     print(f"{len(wanted)} runs, {len(wanted) - len(missing)} of them done before; {len(missing)} to do, "
           f"about {sum(run.cost for run in missing) / arguments.workers / 60:.0f} min", flush=True)
     progress = Progress(missing, arguments.workers)
@@ -118,7 +119,7 @@ def main() -> int:
 
     def work(run: Run) -> None:
         data = execute(run, arguments.build)
-        results.save(run, {**data, "source": source, "commit": commit})
+        results.save(run, {**data, "source": source, "commit": commit}, arguments.results)
         progress.finished(run, data)
         counts[data["status"]] = counts.get(data["status"], 0) + 1
 

@@ -1,0 +1,210 @@
+#!/usr/bin/python3
+"""Writes docs/validation.md and its figures from the results of the runs. No number is typed in here."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import figures
+import paper_sections as paper
+import physics_sections as physics
+import references as ref
+import results
+import runs
+import verdicts
+from paper_sections import figure
+from results import Collection
+
+SCALING_SOURCES = ("Lube et al. (2005) and Lajeunesse et al. (2005) are experiments in channels, Staron & Hinch (2005) contact "
+                   "dynamics of discs, Lagrée et al. (2011) a μ(I) continuum, both in two dimensions without side walls.")
+
+
+def provenance(collection: Collection) -> str:
+    found = collection.found.values()
+    total = sum(result.cpu for result in found)
+    commits = sorted({result.commit for result in found if result.commit})
+    sources = {result.source for result in found}
+    text = (f"{len(collection.found)} runs, {total / 60:.0f} CPU minutes in all, one thread each; sources at "
+            f"commit {', '.join(commits) or 'unknown'}.")
+    if len(sources) > 1:
+        text += (f" **The results come from {len(sources)} states of the sources**: run `scripts/validate` again for one "
+                 "state.")
+    if collection.absent:
+        text += f" {len(collection.absent)} runs are missing: they are listed at the end, and their places hold a dash."
+    return text
+
+
+def compose(collection: Collection, drawn: set[str]) -> str:
+    disagreements = verdicts.disagreements(collection)
+    short = verdicts.in_short(collection)
+    body = f"""## Every scene of the paper
+
+Jin, Lu, Tai & Xu (2021) print few numbers; most of their comparisons are figures, so that only these can be set beside
+ours. "As printed" is their scheme with the factor 2 of their equation 3.12, "factor 1" the same with μ(I) p as the stress of
+simple shear. The default scheme has no side walls; "side walls" has the friction of a channel's walls
+({runs.CHANNEL_WIDTH:g} m apart, coefficient {runs.CHANNEL_FRICTION:g}), "raised friction" has
+{ref.RAISED_MU_S_DEGREES:g}° and {ref.RAISED_MU_2_DEGREES:g}° in place of 21° and 32° ({ref.IONESCU}). The gates clear their
+columns in {runs.DEFAULT_LIFT_TIME:g} s: the paper gives their motion as a figure only. CPU s are those of the whole run.
+
+{paper.main_table(collection)}
+
+## Both sides, a = 1.25
+
+H = 0.05 m, L = 0.08 m, d = 2 mm, L/dl = 32; the {ref.XU2017}.
+
+{figure("both_side", drawn, "Free surfaces; dotted: the column at the start. The paper's figures 3 and 8")}
+
+{figure("peak_in_time", drawn, "Highest point against time. Left: the schemes; right: their horizons, the paper's figure 4")}
+
+{figure("velocity", drawn, "Horizontal velocity on two sections at two instants, the paper's figure 5")}
+
+### Horizon
+
+Peak y/L of a = 1.25, L/dl = 32:
+
+{paper.horizon(collection)}
+
+### Resolution
+
+{paper.resolution(collection)}
+
+{figure("resolution", drawn, "Peak and run-out at 0.42 s against the resolution")}
+
+{figure("run_time", drawn, "Error against run time. Left: from the experiment, which says how good the model is. Right: from the finest grid of the same code, which says how good the numerics are (0.05 % and less drawn as 0.05 %)")}
+
+### Lifting of the gates
+
+The gates' measured motion is published as a figure only; here they rise with uniform acceleration.
+
+{paper.lift(collection)}
+
+{figure("lift", drawn, "Highest point against time for several times of lifting, default scheme")}
+
+## Both sides, a = 5
+
+{figure("tall", drawn, "Free surfaces; dotted: the column at the start. The paper's figure 9")}
+
+{paper.solid_speed(collection)}
+
+{figure("solid_speed", drawn, "Speed on y/L = 0.25 at 1 s, the paper's figure 10")}
+
+## One side
+
+H = 0.14 m, L = 0.20 m (section 5.2 of the paper swaps them), d = 0.7 mm, dl = 2.5 mm, smooth wall on the left; the
+{ref.MANGENEY}.
+
+{figure("one_side", drawn, "Free surfaces; dotted: the column at the start. The paper's figure 13")}
+
+## Colliding columns, case I
+
+{paper.colliding(collection)}
+
+{figure("colliding", drawn, "Free surfaces; dotted: the columns at the start. The paper's figures 16 and 17")}
+
+## Colliding columns, case II
+
+{paper.interface(collection)}
+
+{figure("interface", drawn, "The interface between the columns, the paper's figure 19")}
+
+## Plane Couette flow with gravity
+
+The program is [examples/c/couette.c](../examples/c/couette.c); set-up of the {ref.COUETTE_SOURCE}. "Exact" is the profile of the local μ(I) law, whose band of shear
+is thinner than a grain in the first two cells: what is wider there is the numerics'.
+
+{physics.couette(collection)}
+
+{figure("couette", drawn, "Mean velocity below the dragged plate")}
+
+## Run-out and height against the aspect ratio
+
+a = H0/L0, default scheme with tan 21° and tan 32°, instant release, at 6 √(H0/g). {SCALING_SOURCES}
+
+{physics.scaling(collection)}
+
+{figure("scaling", drawn, "Run-out and final height against the aspect ratio")}
+
+## Contact dynamics of discs
+
+The data: {ref.CONTACT_DYNAMICS_SOURCE}. Ours has the friction that Lagrée et al. (2011) use for the same data (μ_s = {ref.LAGREE_MU_S:g},
+μ_2 = {ref.LAGREE_MU_2:g}, I0 = {ref.LAGREE_I0:g}, the discs' diameter), fitted to neither case; {runs.CONTACT_SPACINGS} spacings
+in H0. The front is the outermost point at which the surface is above 0.02 or 0.05 H0. Single discs that roll ahead of the
+deposit count at 0.02 H0, as single particles do in ours, whose spacing is {1 / runs.CONTACT_SPACINGS:.3f} H0.
+
+{physics.contact_dynamics(collection)}
+
+{figure("contact_dynamics", drawn, "Front and peak against time, with the discs")}
+
+## Independent codes
+
+The column of a = 1.25, gates gone at once, with public codes at the same μ(I). They agree with each other on a peak of
+{ref.CODES_PEAK_BAND[0]:.3f} to {ref.CODES_PEAK_BAND[1]:.3f}.
+
+{physics.codes(collection)}
+
+## Exact solutions
+
+{physics.exact(collection)}
+
+{figure("exact", drawn, "Error against resolution and against run time")}
+
+## Verdict on the factor 2
+
+{verdicts.factor_two(collection)}
+
+## What the non-locality contributes once the friction is the same
+
+{verdicts.non_locality(collection)}
+
+## What disagrees
+
+{bullets(disagreements) if disagreements else "Nothing beyond the deviations in the tables."}
+"""
+    head = f"""# Validation
+
+Made by `scripts/validate` ([bench/validation](../bench/validation)); `scripts/validate --report-only` writes it anew from the
+results in `results/validation`. Every number is measured by a run or cited from
+[references.py](../bench/validation/references.py). {provenance(collection)}
+
+{bullets(short)}
+
+"""
+    return tidy(head + body + missing_runs(collection))
+
+
+def missing_runs(collection: Collection) -> str:
+    if not collection.absent:
+        return ""
+    reasons: dict[str, list[str]] = {}
+    for name, why in collection.absent.items():
+        reasons.setdefault(why, []).append(name)
+    return "\n## Missing runs\n\n" + bullets(f"{why}: {', '.join(sorted(names))}" for why, names in reasons.items()) + "\n"
+
+
+def bullets(lines) -> str:
+    return "\n".join(f"- {line}" for line in lines)
+
+
+def tidy(text: str) -> str:
+    """One empty line where a figure is missing."""
+    while "\n\n\n" in text:
+        text = text.replace("\n\n\n", "\n\n")
+    return text.rstrip() + "\n"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--results", type=Path, default=results.DIRECTORY, help="where the results are [results/validation]")
+    parser.add_argument("--docs", type=Path, default=results.ROOT / "docs", help="where validation.md goes [docs]")
+    arguments = parser.parse_args()
+    collection = Collection(arguments.results)
+    drawn = figures.draw_all(arguments.docs / "images", collection)
+    for run in runs.all_runs():
+        collection(run)
+    report = arguments.docs / "validation.md"
+    report.write_text(compose(collection, drawn), encoding="utf-8")
+    print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")
+
+
+if __name__ == "__main__":
+    main()

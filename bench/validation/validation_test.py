@@ -1,0 +1,78 @@
+"""Runs the coarsest scenes through the runner and the report: what comes out is physics, and the report holds it."""
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+try:
+    import matplotlib  # noqa: F401
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+import measures
+import results
+import runs
+
+
+def call(*command: object) -> str:
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+    print(done.stdout, done.stderr, sep="")
+    assert done.returncode == 0, f"{command[1]} ended with status {done.returncode}"
+    return done.stdout
+
+
+def check_result(result: results.Result) -> None:
+    """A column of 0.08 x 0.05 m that has collapsed and come to rest."""
+    summary, series = result.summary, result.tables["series"]
+    assert summary["particles"] == 160 and summary["steps"] > 1000
+    assert 0.34 < measures.peak(result) < 0.51, "outside what an arrested deposit can be"
+    assert summary["at_rest"] == 1 and summary["at_rest_since"] < 1
+    assert abs(summary["energy_error_share"]) < 0.02
+    assert summary["cpu_seconds"] > 0 and summary["particle_steps_rate"] > 0
+    assert len(series["time"]) == 301 and series["time"][-1] == 3
+    assert np.all(np.diff(series["time"]) > 0)
+    for time in (0.12, 0.22, 0.42, 1, 2, 3):
+        x, height = result.surface(time)
+        area = float(np.sum((height[1:] + height[:-1]) / 2 * np.diff(x)))
+        assert abs(area / (0.08 * 0.05) - 1) < 0.12, f"area below the surface at {time} s: {area}"
+    assert abs(float(result.surface(0.42)[1].max()) - result.at("peak_height", 0.42)) < 0.001
+    rows = result.select("section", 0.129, y=0.01)
+    assert len(rows["x"]) > 10 and rows["vx"][0] < 0 < rows["vx"][-1], "both sides flow outwards"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=Path, required=True)
+    parser.add_argument("--work", type=Path, required=True)
+    arguments = parser.parse_args()
+    shutil.rmtree(arguments.work, ignore_errors=True)
+    found, docs = arguments.work / "results", arguments.work / "docs"
+    docs.mkdir(parents=True)
+
+    run = runs.resolution_run("default", 16)
+    runner = (sys.executable, HERE / "runner.py", "--build", arguments.build, "--results", found, "--only", run.name)
+    call(*runner)
+    result = results.load(run, found)
+    assert result is not None
+    check_result(result)
+    assert "0 to do" in call(*runner), "a run that has its result is not run again"
+
+    call(sys.executable, HERE / "report.py", "--results", found, "--docs", docs)
+    report = (docs / "validation.md").read_text(encoding="utf-8")
+    assert f"{measures.peak(result):.3f} (" in report, "the resolution table has the peak"
+    assert "Missing runs" in report and "nan" not in report.lower().replace("finance", "")
+    images = sorted(path.name for path in (docs / "images").iterdir())
+    assert "validation_resolution.png" in images, images
+    for name in images:
+        assert f"images/{name}" in report, f"{name} is not shown"
+    names = [one.name for one in runs.all_runs()]
+    assert len(names) == len(set(names)) and all("/" not in name for name in names)
+
+
+main()
