@@ -60,19 +60,61 @@ static void write_series(FILE *file, gp_sim *sim, const recording *r, const gp_s
             s->energy_error / energy, s->max_pressure, s->at_rest);
 }
 
-/* Stations half a spacing apart from front to front. */
+static double *allocate(int64_t n) {
+    double *values = calloc((size_t)n, sizeof *values);
+    if (!values) {
+        fprintf(stderr, "out of memory\n");
+        exit(1);
+    }
+    return values;
+}
+
+/* Columns that are still apart: the library's surface is that of the larger one. For the other, half a spacing above the
+ * highest particle within a spacing of the station. */
+static void add_detached(gp_sim *sim, const recording *r, const gp_state *s, int64_t n, double begin, double step,
+                         double *height) {
+    gp_particles p;
+    int64_t i, k;
+    p.struct_size = sizeof p;
+    CHECK(gp_get_particles(sim, GP_FIELD_POSITION, &p));
+    for (i = 0; i < p.count; ++i)
+        for (k = (int64_t)ceil((p.x[i] - r->spacing - begin) / step); begin + (double)k * step <= p.x[i] + r->spacing;
+             ++k) {
+            const double x = begin + (double)k * step;
+            if (k >= 0 && k < n && (x < s->x_left || x > s->x_right))
+                height[k] = fmax(height[k], p.y[i] + r->spacing / 2);
+        }
+}
+
+/* From the leftmost to the rightmost particle. */
+static void find_extent(gp_sim *sim, double *left, double *right) {
+    gp_particles p;
+    int64_t i;
+    p.struct_size = sizeof p;
+    CHECK(gp_get_particles(sim, GP_FIELD_X, &p));
+    for (i = 0; i < p.count; ++i) {
+        *left = fmin(*left, p.x[i]);
+        *right = fmax(*right, p.x[i]);
+    }
+}
+
+/* Stations half a spacing apart from front to front; in scenes of two columns over all particles. */
 static void write_surface(FILE *file, gp_sim *sim, const recording *r, const gp_state *s) {
     const double step = r->spacing / 2;
-    const int64_t n = (int64_t)floor((s->x_right - s->x_left) / step) + 3;
-    double *x = malloc(2 * (size_t)n * sizeof *x), *height = x + n;
-    int64_t k;
-    if (!x || !file) {
-        free(x);
+    double left = s->x_left, right = s->x_right, *x, *height;
+    int64_t n, k;
+    if (!file)
         return;
-    }
+    if (r->columns > 1)
+        find_extent(sim, &left, &right);
+    n = (int64_t)floor((right - left) / step) + 3;
+    x = allocate(2 * n);
+    height = x + n;
     for (k = 0; k < n; ++k)
-        x[k] = s->x_left + (double)(k - 1) * step;
+        x[k] = left + (double)(k - 1) * step;
     CHECK(gp_get_surface(sim, n, x, height));
+    if (r->columns > 1)
+        add_detached(sim, r, s, n, x[0], step, height);
     for (k = 0; k < n; ++k)
         fprintf(file, "%.6g,%.6g,%.6g\n", s->time, x[k], height[k]);
     free(x);
@@ -81,13 +123,12 @@ static void write_surface(FILE *file, gp_sim *sim, const recording *r, const gp_
 /* Mean velocity of the particles within one spacing of the section, in bins one spacing wide. */
 static void write_section(FILE *file, gp_sim *sim, const recording *r, const gp_state *s, double y) {
     const int64_t n = (int64_t)floor((s->x_right - s->x_left) / r->spacing) + 1;
-    double *sums = calloc(3 * (size_t)n, sizeof *sums);
     gp_particles p;
+    double *sums;
     int64_t k, i;
-    if (!sums || !file) {
-        free(sums);
+    if (!file)
         return;
-    }
+    sums = allocate(3 * n);
     p.struct_size = sizeof p;
     CHECK(gp_get_particles(sim, GP_FIELD_POSITION | GP_FIELD_VELOCITY, &p));
     for (i = 0; i < p.count; ++i) {
@@ -109,12 +150,12 @@ static void write_section(FILE *file, gp_sim *sim, const recording *r, const gp_
 static void write_interface(FILE *file, gp_sim *sim, const recording *r, const gp_state *s) {
     const double step = r->spacing / 4;
     const int64_t n = (int64_t)ceil(s->peak_height / step) + 1;
-    double *y = malloc(2 * (size_t)n * sizeof *y), *x = y + n;
+    double *y, *x;
     int64_t k;
-    if (!y || !file || r->columns < 2) {
-        free(y);
+    if (!file || r->columns < 2)
         return;
-    }
+    y = allocate(2 * n);
+    x = y + n;
     for (k = 0; k < n; ++k)
         y[k] = ((double)k + 0.5) * step;
     CHECK(gp_get_interface(sim, 0, 1, n, y, x));

@@ -86,7 +86,7 @@ The gates' measured motion is published as a figure only; here they rise with un
 
 {paper.solid_speed(collection)}
 
-{figure("solid_speed", drawn, "Speed on y/L = 0.25 at 1 s, the paper's figure 10")}
+{figure("solid_speed", drawn, "Speed on y/L = 0.25 at 1 s, the paper's figure 10 (1e-7 and less drawn as 1e-7)")}
 
 ## One side
 

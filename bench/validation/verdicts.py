@@ -132,6 +132,13 @@ def disagreements(results: Collection) -> list[str]:
         if any(later > earlier for earlier, later in zip(steps, steps[1:])) or steps[-1] > 0.01:
             found.append("Default, refinement: peak y/L " + ", ".join(f"{value:.3f} at L/dl = {r}" for r, value in grid) +
                          f": the last step is {percent(p2, p1)}, and the steps do not shrink as they would for a converged peak.")
+    wall = results(runs.main_run("one_side", "default"))
+    if wall and abs(wall.summary["axis_height"] / ref.EXPERIMENT_WALL_HEIGHT - 1) > CLOSE:
+        value = wall.summary["axis_height"]
+        raised_wall = results(runs.main_run("one_side", "raised"))
+        other = f"; with the raised friction {raised_wall.summary['axis_height']:.4f} m" if raised_wall else ""
+        found.append(f"Default, one side: the height beside the wall sinks to {value:.4f} m by 1.02 s "
+                     f"({percent(value, ref.EXPERIMENT_WALL_HEIGHT)}); in the experiment it hardly moves{other}.")
     angle = results(runs.main_run("colliding_2", "default"))
     if angle:
         value = abs(angle.interface_angle(0.6, *FIT))
