@@ -1,6 +1,7 @@
 // What a simulation can tell of itself. Everything here only reads.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -33,7 +34,8 @@ private:
         double x, y;
     };
     double spacing_, radius_;
-    std::vector<Point> points_; // sorted by x
+    double x_min_ = -INFINITY, x_max_ = INFINITY; // ends of the period
+    std::vector<Point> points_;                   // sorted by x
 };
 
 // Interface of two bodies at height y; false where they do not touch.

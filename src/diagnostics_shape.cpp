@@ -29,8 +29,9 @@ std::vector<char> connected_deposit(const World &world) {
     const double link = link_distance * world.constants.spacing, link2 = link * link;
     for (int32_t i = 0; i < p.count; ++i)
         for (int64_t k = world.neighbors.start[i]; k < world.neighbors.start[i + 1]; ++k) {
-            const int32_t j = world.neighbors.index[k];
-            const double dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i];
+            const int32_t near = world.neighbors.index[k];
+            const double dx = p.x[near] - p.x[i], dy = p.y[near] - p.y[i];
+            const auto j = static_cast<int32_t>(world.images.source(near));
             if (j > i && dx * dx + dy * dy < link2)
                 parent[root_of(parent, i)] = root_of(parent, j);
         }
@@ -53,21 +54,25 @@ std::vector<char> connected_deposit(const World &world) {
 
 Surface::Surface(const World &world)
     : spacing_(world.constants.spacing), radius_(smoothing_radius * world.constants.spacing) {
+    if (const Period &period = world.constants.period) {
+        x_min_ = period.x_min;
+        x_max_ = period.x_min + period.length;
+    }
     const std::vector<char> connected = connected_deposit(world);
     const Particles &p = world.particles;
-    for (int64_t i = 0; i < p.count; ++i)
-        if (connected[i])
+    for (int64_t i = 0; i < p.count + world.images.count; ++i)
+        if (connected[world.images.source(i)])
             points_.push_back({p.x[i], p.y[i]});
     std::sort(points_.begin(), points_.end(),
               [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
 }
 
 double Surface::left() const {
-    return points_.front().x - 0.5 * spacing_;
+    return std::max(x_min_, points_.front().x - 0.5 * spacing_);
 }
 
 double Surface::right() const {
-    return points_.back().x + 0.5 * spacing_;
+    return std::min(x_max_, points_.back().x + 0.5 * spacing_);
 }
 
 bool Surface::height(double x, double &y) const {

@@ -29,10 +29,9 @@ double number_density(const World &world, int64_t i) {
     const double radius = world.constants.interaction_radius;
     double sum = 0;
     // The cells are those of the last sort: particles have moved by less than `shifted` since.
-    world.grid.for_each_run(p.x[i], p.y[i], radius + world.shifted, [&](int64_t begin, int64_t end) {
-        for (int64_t j = begin; j < end; ++j)
-            if (j != i)
-                sum += weight(std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]), 1.0 / radius);
+    for_each_candidate(world.grid, world.images, p.x[i], p.y[i], radius + world.shifted, [&](int64_t j) {
+        if (j != i)
+            sum += weight(std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]), 1.0 / radius);
     });
     return sum;
 }

@@ -42,6 +42,17 @@ struct Segment {
     }
 };
 
+// Periodicity in x.
+struct Period {
+    double x_min = 0, length = 0; // m; length 0: not periodic
+    explicit operator bool() const { return length > 0; }
+    bool spanned_by(const Segment &s) const {
+        return std::abs(std::abs(s.tangent.x() * s.length) - length) < 1e-6 * length && std::abs(s.tangent.y()) < 1e-9;
+    }
+    // Whole periods to take off x so that it lies in [x_min, x_min + length).
+    double shift_of(double x) const { return length * std::floor((x - x_min) / length); }
+};
+
 // Where the way from a point on the wetted side to one on the body side passes the segment's line, as a fraction of the
 // way in [0, 1); negative if it does not pass through the segment in that sense.
 inline double crossing(const Segment &segment, const Vector &from, const Vector &to, double tolerance) {

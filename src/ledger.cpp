@@ -10,6 +10,7 @@ Energies measure_energies(const World &world) {
     const Vector &g = world.constants.gravity;
     const double c2 = world.constants.sound_speed * world.constants.sound_speed;
     Energies e;
+    e.potential = world.ledger.wound;
     for (int64_t i = 0; i < p.count; ++i) {
         const MaterialConstants &m = world.material_of(i);
         const double mass = m.density * p.volume;

@@ -81,22 +81,21 @@ bool separated(const std::vector<Segment> &barriers, const Vector &a, const Vect
 
 } // namespace
 
-void find_neighbors(const Particles &particles, const CellGrid &grid, double radius, double close_radius,
-                    const std::vector<Segment> &barriers, double tolerance, int threads, NeighborList &list) {
+void find_neighbors(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+                    double close_radius, const std::vector<Segment> &barriers, double tolerance, int threads,
+                    NeighborList &list) {
     const int64_t n = particles.count;
     const double *x = particles.x.data(), *y = particles.y.data();
     const double radius2 = radius * radius, close2 = close_radius * close_radius;
 
     // Calls found(j, r^2) for the neighbours of i in sorted order.
     const auto visit = [&](int64_t i, const auto &found) {
-        grid.for_each_run(x[i], y[i], radius, [&](int64_t begin, int64_t end) {
-            for (int64_t j = begin; j < end; ++j) {
-                const double dx = x[j] - x[i], dy = y[j] - y[i];
-                const double r2 = dx * dx + dy * dy;
-                if (r2 < radius2 && j != i &&
-                    (barriers.empty() || !separated(barriers, {x[i], y[i]}, {x[j], y[j]}, tolerance)))
-                    found(j, r2);
-            }
+        for_each_candidate(grid, images, x[i], y[i], radius, [&](int64_t j) {
+            const double dx = x[j] - x[i], dy = y[j] - y[i];
+            const double r2 = dx * dx + dy * dy;
+            if (r2 < radius2 && j != i &&
+                (barriers.empty() || !separated(barriers, {x[i], y[i]}, {x[j], y[j]}, tolerance)))
+                found(j, r2);
         });
     };
 

@@ -11,6 +11,7 @@
 
 #include "geometry.hpp"
 #include "particles.hpp"
+#include "periodic.hpp"
 
 namespace gp {
 
@@ -64,6 +65,24 @@ private:
     Field<int64_t> unsorted_;
 };
 
+// Calls found(j) for the particles and images that may lie within `radius` of (x, y), in a fixed order.
+template <class Found>
+void for_each_candidate(const CellGrid &grid, const Images &images, double x, double y, double radius,
+                        const Found &found) {
+    grid.for_each_run(x, y, radius, [&](int64_t begin, int64_t end) {
+        for (int64_t j = begin; j < end; ++j)
+            found(j);
+    });
+    if (images.count == 0)
+        return;
+    for (int side = 0; side < 2; ++side)
+        grid.for_each_run(x - images.shift(side), y, radius, [&](int64_t begin, int64_t end) {
+            for (int64_t j = begin; j < end; ++j)
+                if (const int32_t image = images.image_of(j, side); image >= 0)
+                    found(image);
+        });
+}
+
 // Rows of neighbour indices: entries of row i are index[start[i]] .. index[start[i + 1]].
 struct NeighborList {
     Field<int64_t> start;
@@ -78,7 +97,8 @@ struct NeighborList {
 
 // Finds, for every particle, the neighbours within `radius`, of which those within `close_radius` come first. Pairs on
 // both sides of one of `barriers` (plates with material behind them) do not see each other.
-void find_neighbors(const Particles &particles, const CellGrid &grid, double radius, double close_radius,
-                    const std::vector<Segment> &barriers, double tolerance, int threads, NeighborList &list);
+void find_neighbors(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+                    double close_radius, const std::vector<Segment> &barriers, double tolerance, int threads,
+                    NeighborList &list);
 
 } // namespace gp

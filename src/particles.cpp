@@ -21,6 +21,23 @@ void Particles::allocate(int64_t n, bool penalty, bool diffusion) {
     scratch_int32_.resize(size);
 }
 
+void Particles::make_room(int64_t images) {
+    const auto size = static_cast<std::size_t>(count + images);
+    const auto grow = [&](auto &field) {
+        if (field.empty() || size == field.size())
+            return;
+        if (size > field.capacity())
+            field.reserve(size + size / 16); // so that the next numbers of images fit, too
+        field.resize(size);
+    };
+    grow(column);
+    grow(scratch_int32_);
+    // The gradient and its like are not read of neighbours, but swap their memory with fields that are.
+    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy, &cxx, &cxy,
+                                 &cyx, &cyy, &stressed, &flowing, &scratch_double_})
+        grow(*field);
+}
+
 void Particles::reorder(const Field<int32_t> &old_index, int threads) {
     const auto gather = [&](auto &field, auto &scratch) {
         if (field.empty())

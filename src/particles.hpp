@@ -48,6 +48,9 @@ struct Particles {
     // Gives every field in use its size.
     void allocate(int64_t n, bool penalty, bool diffusion);
 
+    // Makes room for images of particles behind the real ones (periodic.hpp) in every field that neighbours read.
+    void make_room(int64_t images);
+
     // Puts the carried fields into the order old_index[new]; scratch arrays keep their memory between calls.
     void reorder(const Field<int32_t> &old_index, int threads);
 

@@ -9,6 +9,7 @@ namespace gp {
 Traits traits_of(const Scene &scene, const Constants &constants) {
     Traits t;
     t.particles = scene.particle_count() > 0;
+    t.periodic = static_cast<bool>(scene.period());
     t.plates = !scene.plates().empty();
     t.coulomb_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [](const PlateSpec &plate) {
         return plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0;
@@ -41,6 +42,7 @@ std::vector<PlannedStage> make_stages(const Traits &t) {
     const char *no_particles = "the scene has no particles";
     const char *no_plates = "the scene has no plates";
     const char *none_near = "no plate is within reach of material";
+    const char *not_periodic = "the scene is not periodic";
     const char *no_side_walls = t.channel ? "channel_friction is 0" : "channel_width is 0";
     const bool walls = t.particles && t.plates;
     // clang-format off
@@ -81,6 +83,9 @@ std::vector<PlannedStage> make_stages(const Traits &t) {
          stages::collide, nullptr, ""},
         {"wall_contact", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_contact, in_reach, none_near},
+        // reads position, velocity; writes those of the images
+        {"update_images", t.particles && t.periodic, "the scene is periodic in x", t.particles ? not_periodic : no_particles,
+         stages::update_images, nullptr, ""},
         {"account", t.particles, "energy ledger, loads, extremes", no_particles, stages::account, nullptr, ""},
     };
     // clang-format on
@@ -149,6 +154,9 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                   bytes_of(world.colliding)));
     common("cells", world.grid.bytes());
     common("neighbor_lists", world.neighbors.bytes());
+    entries.push_back(field_entry("images", t.particles && t.periodic,
+                                  t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
+                                  world.images.bytes()));
     common("sort_scratch", p.scratch_bytes());
     common("block_sums", bytes_of_all(world.sums, world.ranges));
     entries.push_back(field_entry("ghosts", t.plates && world.walls.in_reach(),

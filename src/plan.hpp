@@ -10,7 +10,7 @@ namespace gp {
 
 // The scene's choices.
 struct Traits {
-    bool particles, plates, coulomb_plates, channel, side_walls, penalty, collisions, diffusion;
+    bool particles, periodic, plates, coulomb_plates, channel, side_walls, penalty, collisions, diffusion;
 };
 
 Traits traits_of(const Scene &scene, const Constants &constants);

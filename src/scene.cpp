@@ -43,6 +43,16 @@ void check_config(const gp_config &c) {
     require_finite("gp_config.periodic_x_max", c.periodic_x_max);
     require(c.periodic_x_max >= c.periodic_x_min, "gp_config.periodic_x_max", c.periodic_x_max,
             "a number not below periodic_x_min");
+    if (c.periodic_x_max > c.periodic_x_min) {
+        const double reach = c.horizon_length > 0 ? c.horizon_length / c.spacing : c.horizon;
+        const double least = (2 * std::max(reach, c.interaction_radius) + 2) * c.spacing;
+        if (c.periodic_x_max - c.periodic_x_min < least)
+            throw make_error(
+                GP_E_ARGUMENT,
+                "gp_config.periodic_x_max = %g: expected at least periodic_x_min + %g m, twice the horizon or "
+                "the interaction radius and two spacings",
+                c.periodic_x_max, least);
+    }
     require_choice("gp_config.threads", c.threads, 1025);
     require(c.jitter >= 0 && c.jitter < 0.5, "gp_config.jitter", c.jitter, "a number from 0 to below 0.5");
     require_choice("gp_config.preset", c.preset, 3);
@@ -56,8 +66,6 @@ void check_config(const gp_config &c) {
                     c.stress == GP_STRESS_REGULARIZED ? "GP_STRESS_REGULARIZED" : "GP_STRESS_IMPLICIT");
     if (c.density != GP_DENSITY_CONTINUITY)
         unsupported("gp_config.density", "GP_DENSITY_NUMBER");
-    if (c.periodic_x_max > c.periodic_x_min)
-        unsupported("gp_config.periodic_x_max", "periodicity");
 #ifndef GP_WITH_OPENMP
     if (c.threads > 1)
         throw make_error(GP_E_UNSUPPORTED, "gp_config.threads = %d: this build has no OpenMP", c.threads);
@@ -148,6 +156,12 @@ int32_t Scene::add_column(const gp_column &c, std::string &note) {
                            static_cast<int>(bodies_.size()), c.width, c.height, columns * spacing, rows * spacing,
                            spacing);
 
+    if (const Period p = period();
+        p && (c.x_min < p.x_min - tolerance || c.x_min + columns * spacing > p.x_min + p.length + tolerance))
+        throw make_error(GP_E_ARGUMENT,
+                         "gp_column from x = %g to %g m: expected a column within the period, %g to %g m", c.x_min,
+                         c.x_min + columns * spacing, p.x_min, p.x_min + p.length);
+
     Body body;
     body.material = c.material;
     body.first = particle_count();
@@ -194,6 +208,9 @@ int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, cons
     };
     for (int64_t k = 0; k < n; ++k) {
         require_position(format_text("x[%lld]", static_cast<long long>(k)).c_str(), px[k], config_.spacing);
+        if (const Period p = period(); p && (px[k] < p.x_min || px[k] > p.x_min + p.length))
+            throw make_error(GP_E_ARGUMENT, "x[%lld] = %g: expected a position within the period, %g to %g m",
+                             static_cast<long long>(k), px[k], p.x_min, p.x_min + p.length);
         require_position(format_text("y[%lld]", static_cast<long long>(k)).c_str(), py[k], config_.spacing);
     }
     check("vx", pvx);
@@ -227,6 +244,10 @@ int32_t Scene::add_plate(const gp_plate &p) {
     require(std::isfinite(length) && length > 1e-6 * config_.spacing, "gp_plate length", length,
             "two ends that differ by more than 1e-6 of the spacing");
     require(length / config_.spacing < 1e8, "gp_plate length", length, "less than 1e8 spacings");
+    if (const Period period = this->period(); period && std::abs(p.x1 - p.x0) > period.length * (1 + 1e-6))
+        throw make_error(GP_E_ARGUMENT,
+                         "gp_plate from x = %g to %g m: expected an extent in x of at most the period, %g m", p.x0,
+                         p.x1, period.length);
     require_choice("gp_plate.friction", p.friction, 3);
     require_not_negative("gp_plate.wall_mu", p.wall_mu);
     require(p.wall_mu == 0 || p.friction == GP_WALL_COULOMB, "gp_plate.wall_mu", p.wall_mu,

@@ -60,6 +60,7 @@ struct MaterialConstants {
 struct Constants {
     double spacing, volume;
     Vector gravity;
+    Period period;                 // in x; empty where the scene is not periodic
     double horizon;                // m
     double interaction_radius;     // m
     LatticeSums lattice;           // for the horizon
@@ -89,6 +90,11 @@ public:
     void drive_plate(int32_t plate, const Vector &velocity);
 
     const gp_config &config() const { return config_; }
+    Period period() const {
+        if (config_.periodic_x_max > config_.periodic_x_min)
+            return {config_.periodic_x_min, config_.periodic_x_max - config_.periodic_x_min};
+        return {};
+    }
     const std::vector<gp_material> &materials() const { return materials_; }
     const std::vector<Body> &bodies() const { return bodies_; }
     const std::vector<PlateSpec> &plates() const { return plates_; }
@@ -103,8 +109,6 @@ public:
     std::vector<int32_t> column;
 
 private:
-    double load_on_face(const Body &body, const Vector &outward) const; // Pa, of a loaded plate there
-    bool face_is_supported(const Body &body, const Vector &outward) const;
     void reserve(int64_t more);
 
     gp_config config_;

@@ -1,4 +1,4 @@
-// What follows from a complete scene: the sound speed, the material constants, the pressure to begin with.
+// What follows from a complete scene: the sound speed and the material constants.
 #include <algorithm>
 #include <cmath>
 
@@ -104,6 +104,7 @@ Constants Scene::constants() const {
     c.spacing = config_.spacing;
     c.volume = c.spacing * c.spacing;
     c.gravity = Vector(config_.gravity_x, config_.gravity_y);
+    c.period = period();
     c.horizon = config_.horizon_length > 0 ? config_.horizon_length : config_.horizon * c.spacing;
     c.interaction_radius = config_.interaction_radius * c.spacing;
     c.lattice = lattice_sums(c.horizon, c.spacing);
@@ -157,63 +158,6 @@ Constants Scene::constants() const {
                     ? 0.0
                     : config_.zero_energy_penalty * lightest * c.sound_speed / (c.spacing * c.lattice.number_density);
     return c;
-}
-
-double Scene::load_on_face(const Body &body, const Vector &outward) const {
-    const Vector centre(body.x_min + 0.5 * body.width, body.y_min + 0.5 * body.height);
-    const double half_depth = 0.5 * (outward.y() != 0 ? body.height : body.width);
-    double load = 0;
-    for (const PlateSpec &plate : plates_)
-        if (plate.load > 0 && plate.segment.normal.dot(outward) < -0.99 &&
-            plate.segment.nearest(centre + half_depth * outward) < 0.5 * config_.spacing)
-            load = std::max(load, plate.load);
-    return load;
-}
-
-bool Scene::face_is_supported(const Body &body, const Vector &outward) const {
-    const Vector centre(body.x_min + 0.5 * body.width, body.y_min + 0.5 * body.height);
-    const bool horizontal = outward.y() != 0;
-    const double half_depth = 0.5 * (horizontal ? body.height : body.width);
-    const double length = horizontal ? body.width : body.height;
-    const Vector along(horizontal ? 1.0 : 0.0, horizontal ? 0.0 : 1.0);
-    const auto cells = static_cast<int64_t>(std::round(length / config_.spacing));
-    int64_t covered = 0;
-    for (int64_t k = 0; k < cells; ++k) {
-        const Vector point =
-            centre + half_depth * outward + along * ((static_cast<double>(k) + 0.5) * config_.spacing - 0.5 * length);
-        covered += std::any_of(plates_.begin(), plates_.end(), [&](const PlateSpec &plate) {
-            return plate.segment.normal.dot(outward) < -0.99 && plate.segment.nearest(point) < 0.5 * config_.spacing;
-        });
-    }
-    return 2 * covered >= cells;
-}
-
-std::vector<double> Scene::initial_pressure(const Constants &c) const {
-    std::vector<double> pressure(x.size(), 0.0);
-    for (const Body &body : bodies_) {
-        if (!body.rectangle || !body.hydrostatic)
-            continue;
-        const double density = c.materials[static_cast<std::size_t>(body.material)].density;
-        for (const Vector &outward : {Vector(0, -1), Vector(0, 1), Vector(-1, 0), Vector(1, 0)}) {
-            if (!face_is_supported(body, outward))
-                continue;
-            const double load = face_is_supported(body, -outward) ? load_on_face(body, -outward) : 0.0;
-            for (int64_t i = body.first; i < body.first + body.count; ++i)
-                pressure[i] = std::max(pressure[i], load);
-        }
-        for (const Vector &outward : {Vector(0, -1), Vector(0, 1), Vector(-1, 0), Vector(1, 0)}) {
-            const double pressing = outward.dot(c.gravity);
-            if (pressing <= 0 || !face_is_supported(body, outward))
-                continue;
-            const Vector corner(outward.x() > 0 ? body.x_min : body.x_min + body.width,
-                                outward.y() > 0 ? body.y_min : body.y_min + body.height);
-            for (int64_t i = body.first; i < body.first + body.count; ++i) {
-                const double depth = outward.dot(Vector(x[i], y[i]) - corner);
-                pressure[i] += density * pressing * std::max(depth, 0.0); // jitter may lift one above the face
-            }
-        }
-    }
-    return pressure;
 }
 
 } // namespace gp

@@ -46,9 +46,13 @@ bool Plate::moves_after(double time) const {
     return spec_->velocity != Vector::Zero();
 }
 
+void Plate::wrap(const Period &period, double time) {
+    const Segment &s = spec_->segment;
+    wrapped_ = period.shift_of(s.origin.x() + 0.5 * s.length * s.tangent.x() + displacement(time).x());
+}
+
 void Plate::place(double time, double dt) {
-    const Vector now = displacement(time);
-    placed_ = spec_->segment.moved(now);
+    placed_ = spec_->segment.moved(displacement(time) - Vector(wrapped_, 0));
     if (driven_)
         velocity_ = driven_velocity_;
     else if (spec_->table.empty())
@@ -63,8 +67,9 @@ int64_t Walls::count_overlapping(const Particles &particles, double margin) cons
     for (int64_t i = 0; i < particles.count; ++i) {
         const Vector at(particles.x[i], particles.y[i]);
         found += std::any_of(plates.begin(), plates.end(), [&](const Plate &plate) {
-            return std::abs(plate.segment().distance(at)) < margin &&
-                   plate.segment().covers(plate.segment().along(at), 0);
+            const Vector image = nearest_image(plate, at);
+            return std::abs(plate.segment().distance(image)) < margin &&
+                   plate.segment().covers(plate.segment().along(image), 0);
         });
     }
     return found;
@@ -72,13 +77,14 @@ int64_t Walls::count_overlapping(const Particles &particles, double margin) cons
 
 int64_t Walls::bytes() const {
     int64_t total = particles_of_ghost.bytes();
-    for (const Field<double> *field :
-         {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
+    for (const Field<double> *field : {&ghost_along, &ghost_depth, &ghost_shift, &ghost_x, &ghost_y, &ghost_vx,
+                                       &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         total += static_cast<int64_t>(field->capacity() * sizeof(double));
     for (const Field<int32_t> *field : {&ghost_plate, &ghost_of_contact, &contact_start, &fill_})
         total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
     return total +
-           static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate));
+           static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
+                                nearby_.capacity() * sizeof(Nearby));
 }
 
 namespace {
@@ -94,10 +100,31 @@ Box box_around(const Segment &s, double margin) {
 
 } // namespace
 
+// A plate, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long
+// segment, that begins a period before its end 0.
+std::vector<Walls::Nearby> Walls::images_of_plates() const {
+    std::vector<Nearby> all;
+    for (std::size_t p = 0; p < plates.size(); ++p) {
+        const Segment &s = plates[p].segment();
+        const auto id = static_cast<int32_t>(p);
+        if (!period) {
+            all.push_back({s, id, 0, 0});
+        } else if (period.spanned_by(s)) {
+            Segment endless = s.moved(-s.length * s.tangent);
+            endless.length *= 3;
+            all.push_back({endless, id, 0, s.length});
+        } else {
+            for (double shift : {0.0, period.length, -period.length})
+                all.push_back({s.moved({shift, 0}), id, shift, 0});
+        }
+    }
+    return all;
+}
+
 std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) const {
     std::vector<Segment> found;
-    for (const Plate &plate : plates) {
-        const Segment &s = plate.segment();
+    for (const Nearby &image : images_of_plates()) {
+        const Segment &s = image.segment;
         const Box box = box_around(s, radius);
         if (particles.count == 0 || box.gap(grid.box()) > 0)
             continue;
@@ -119,26 +146,26 @@ std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid 
     return found;
 }
 
-void Walls::find_contacts(const Particles &particles, const CellGrid &grid, double radius, double spacing,
-                          int threads) {
-    const int64_t n = particles.count;
-    const double tolerance = 1e-9 * spacing;
-    candidates_.clear();
+void Walls::find_nearby(const Particles &particles, const CellGrid &grid, double radius) {
+    nearby_.clear();
+    if (particles.count == 0)
+        return;
+    for (Plate &plate : plates)
+        plate.gap = INFINITY;
+    for (const Nearby &image : images_of_plates()) {
+        const double gap = box_around(image.segment, radius).gap(grid.box());
+        plates[image.plate].gap = std::min(plates[image.plate].gap, gap);
+        if (gap <= 0)
+            nearby_.push_back(image);
+    }
+}
 
+void Walls::place_candidates(const CellGrid &grid, double radius, double spacing) {
+    candidates_.clear();
     // Lattice points behind each plate that lie within reach of the particles' box.
     const auto layers = static_cast<int64_t>(std::ceil(radius / spacing));
-    std::vector<Segment> near_segments;
-    std::vector<int32_t> near_plates;
-    for (std::size_t p = 0; p < plates.size() && n > 0; ++p) {
-        const Segment &s = plates[p].segment();
-        plates[p].gap = box_around(s, radius).gap(grid.box());
-        if (plates[p].gap > 0)
-            continue;
-        near_segments.push_back(s);
-        near_plates.push_back(static_cast<int32_t>(p));
-    }
-    for (std::size_t k = 0; k < near_plates.size(); ++k) {
-        const Segment &s = near_segments[k];
+    for (std::size_t k = 0; k < nearby_.size(); ++k) {
+        const Segment &s = nearby_[k].segment;
         double low = INFINITY, high = -INFINITY, near = INFINITY;
         for (double bx : {grid.box().x_min, grid.box().x_max})
             for (double by : {grid.box().y_min, grid.box().y_max}) {
@@ -148,6 +175,7 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, doub
             }
         if (near > radius)
             continue;
+        // Past the ends the lattice fills corners.
         const auto cells = static_cast<int64_t>(std::ceil(s.length / spacing - 1e-9));
         const int64_t from = std::max(-layers, static_cast<int64_t>(std::floor((low - radius) / spacing)));
         const int64_t to = std::min(cells + layers, static_cast<int64_t>(std::ceil((high + radius) / spacing)));
@@ -156,61 +184,74 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, doub
                 const double along = (static_cast<double>(cell) + 0.5) * spacing;
                 const double depth = (static_cast<double>(layer) + 0.5) * spacing;
                 const Vector at = s.origin + along * s.tangent - depth * s.normal;
-                candidates_.push_back({static_cast<int32_t>(k), along, depth, at.x(), at.y(), 0});
+                candidates_.push_back({static_cast<int32_t>(k), along, depth, at.x(), at.y(), 0, false});
             }
     }
+}
 
-    // Calls seen(i) for the particles that see a candidate.
+void Walls::find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+                          double spacing, int threads) {
+    const int64_t n = particles.count;
+    const double tolerance = 1e-9 * spacing;
+    find_nearby(particles, grid, radius);
+    place_candidates(grid, radius, spacing);
+
+    // Calls seen(i) for the particles and images that see a candidate.
     const double allowed = penetration_allowed * spacing;
     const auto visit = [&](const Candidate &ghost, const auto &seen) {
-        const Segment &own = near_segments[ghost.plate];
+        const Segment &own = nearby_[ghost.nearby].segment;
         const Vector at(ghost.x, ghost.y);
-        grid.for_each_run(ghost.x, ghost.y, radius, [&](int64_t begin, int64_t end) {
-            for (int64_t i = begin; i < end; ++i) {
-                const double dx = particles.x[i] - ghost.x, dy = particles.y[i] - ghost.y;
-                if (dx * dx + dy * dy >= radius * radius)
-                    continue;
-                Vector from(particles.x[i], particles.y[i]);
-                const double d = own.distance(from);
-                if (d <= 0) {
-                    if (d < -allowed || !own.covers(own.along(from), tolerance))
-                        continue;
-                    from += (tolerance - d) * own.normal;
-                }
-                const double own_fraction = crossing(own, from, at, tolerance);
-                if (own_fraction < 0)
-                    continue;
-                bool hidden = false;
-                for (std::size_t q = 0; q < near_segments.size() && !hidden; ++q) {
-                    if (static_cast<int32_t>(q) == ghost.plate)
-                        continue;
-                    const double fraction = crossing(near_segments[q], from, at, tolerance);
-                    hidden = fraction >= 0 && fraction < own_fraction - 1e-9;
-                }
-                if (!hidden)
-                    seen(i);
+        for_each_candidate(grid, images, ghost.x, ghost.y, radius, [&](int64_t i) {
+            const double dx = particles.x[i] - ghost.x, dy = particles.y[i] - ghost.y;
+            if (dx * dx + dy * dy >= radius * radius)
+                return;
+            Vector from(particles.x[i], particles.y[i]);
+            const double d = own.distance(from);
+            if (d <= 0) {
+                if (d < -allowed || !own.covers(own.along(from), tolerance))
+                    return;
+                from += (tolerance - d) * own.normal;
             }
+            const double own_fraction = crossing(own, from, at, tolerance);
+            if (own_fraction < 0)
+                return;
+            for (std::size_t q = 0; q < nearby_.size(); ++q) {
+                if (static_cast<int32_t>(q) == ghost.nearby)
+                    continue;
+                const double fraction = crossing(nearby_[q].segment, from, at, tolerance);
+                if (fraction >= 0 && fraction < own_fraction - 1e-9) // hidden
+                    return;
+            }
+            seen(i);
         });
     };
     const auto candidate_count = static_cast<int64_t>(candidates_.size());
     for_each_block(threads, candidate_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k)
-            visit(candidates_[k], [&](int64_t) { ++candidates_[k].neighbors; });
+            visit(candidates_[k], [&](int64_t i) {
+                ++candidates_[k].neighbors;
+                candidates_[k].seen |= i < n;
+            });
     });
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
-                                     [](const Candidate &candidate) { return candidate.neighbors == 0; }),
+                                     [](const Candidate &candidate) { return !candidate.seen; }),
                       candidates_.end());
 
     ghost_count = static_cast<int64_t>(candidates_.size());
     ghost_plate.resize(ghost_count);
+    if (period)
+        ghost_shift.resize(ghost_count);
     for (Field<double> *field :
          {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         field->resize(ghost_count);
     particles_of_ghost.start.resize(ghost_count + 1);
     particles_of_ghost.start[0] = 0;
     for (int64_t k = 0; k < ghost_count; ++k) {
-        ghost_plate[k] = near_plates[candidates_[k].plate];
-        ghost_along[k] = candidates_[k].along;
+        const Nearby &nearby = nearby_[candidates_[k].nearby];
+        ghost_plate[k] = nearby.plate;
+        if (period)
+            ghost_shift[k] = nearby.shift;
+        ghost_along[k] = candidates_[k].along - nearby.before;
         ghost_depth[k] = candidates_[k].depth;
         ghost_x[k] = candidates_[k].x;
         ghost_y[k] = candidates_[k].y;
@@ -228,12 +269,14 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, doub
     // The transposed list: ghosts of each particle, in ghost order and so plate by plate.
     fill_.assign(n + 1, 0);
     for (int64_t k = 0; k < pairs; ++k)
-        ++fill_[particles_of_ghost.index[k] + 1];
+        if (particles_of_ghost.index[k] < n)
+            ++fill_[particles_of_ghost.index[k] + 1];
     std::partial_sum(fill_.begin(), fill_.end(), fill_.begin());
-    ghost_of_contact.resize(pairs);
+    ghost_of_contact.resize(fill_[n]);
     for (int64_t k = 0; k < ghost_count; ++k)
         for (int64_t e = particles_of_ghost.start[k]; e < particles_of_ghost.start[k + 1]; ++e)
-            ghost_of_contact[fill_[particles_of_ghost.index[e]]++] = static_cast<int32_t>(k);
+            if (particles_of_ghost.index[e] < n)
+                ghost_of_contact[fill_[particles_of_ghost.index[e]]++] = static_cast<int32_t>(k);
     contacts.clear();
     contact_start.resize(n + 1);
     int64_t entry = 0;
@@ -255,7 +298,7 @@ void Walls::place_ghosts(int threads) {
         for (int64_t k = begin; k < end; ++k) {
             const Segment &s = plates[ghost_plate[k]].segment();
             const Vector at = s.origin + ghost_along[k] * s.tangent - ghost_depth[k] * s.normal;
-            ghost_x[k] = at.x();
+            ghost_x[k] = at.x() + (ghost_shift.empty() ? 0.0 : ghost_shift[k]);
             ghost_y[k] = at.y();
         }
     });

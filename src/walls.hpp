@@ -26,6 +26,8 @@ public:
     void drive(double time, const Vector &velocity);
     // Can it still move after `time` by its own motion?
     bool moves_after(double time) const;
+    // Takes whole periods off where it stands, so that its middle is within the period. displacement() keeps them.
+    void wrap(const Period &period, double time);
     // Displacement at `time`, and the mean velocity of the step that follows.
     void place(double time, double dt);
 
@@ -49,6 +51,7 @@ private:
     double driven_since_ = 0;
     Vector driven_from_, driven_velocity_;
     double fallen_ = 0, fall_speed_ = 0; // m, m/s, along the normal, of a loaded plate
+    double wrapped_ = 0;                 // m, whole periods taken off in x
     Segment placed_ = spec_->segment;
     Vector velocity_ = Vector::Zero();
 };
@@ -64,11 +67,13 @@ struct Contact {
 
 struct Walls {
     std::vector<Plate> plates;
+    Period period; // of the scene
 
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
     Field<int32_t> ghost_plate;
     Field<double> ghost_along, ghost_depth;        // m, in the plate's frame: from end 0, and behind the wetted line
+    Field<double> ghost_shift;                     // m, 0 or a period up or down; periodic scenes only
     Field<double> ghost_x, ghost_y;                // m
     Field<double> ghost_vx, ghost_vy;              // m/s, extrapolated
     Field<double> ghost_axx, ghost_axy, ghost_ayy; // stress over the full-lattice shape tensor, N/m4 per unit of w r
@@ -78,6 +83,16 @@ struct Walls {
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
     std::vector<Contact> contacts;   // ordered by particle, then plate
 
+    // The image of a point that is nearest to a plate's middle.
+    Vector nearest_image(const Plate &plate, Vector point) const {
+        if (period) {
+            const Segment &s = plate.segment();
+            point.x() -=
+                period.length * std::round((point.x() - s.origin.x() - 0.5 * s.length * s.tangent.x()) / period.length);
+        }
+        return point;
+    }
+
     bool in_reach() const { return !contacts.empty(); }
     int64_t bytes() const;
 
@@ -85,7 +100,8 @@ struct Walls {
     std::vector<Segment> barriers(const Particles &particles, const CellGrid &grid, double radius) const;
 
     // Finds ghosts and contacts within `radius` of the sorted particles.
-    void find_contacts(const Particles &particles, const CellGrid &grid, double radius, double spacing, int threads);
+    void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+                       double spacing, int threads);
 
     // Moves the ghosts along with their plates.
     void place_ghosts(int threads);
@@ -94,11 +110,24 @@ struct Walls {
     int64_t count_overlapping(const Particles &particles, double margin) const;
 
 private:
-    struct Candidate {
+    // Plates in reach, each with its images across the ends of the period.
+    struct Nearby {
+        Segment segment;
         int32_t plate;
-        double along, depth, x, y;
-        int64_t neighbors;
+        double shift;  // m, of the image
+        double before; // m, from where the segment begins to end 0
     };
+    std::vector<Nearby> images_of_plates() const;
+    void find_nearby(const Particles &particles, const CellGrid &grid, double radius);
+    void place_candidates(const CellGrid &grid, double radius, double spacing);
+
+    struct Candidate {
+        int32_t nearby; // which
+        double along, depth, x, y;
+        int64_t neighbors; // particles and images that see it
+        bool seen;         // by a particle
+    };
+    std::vector<Nearby> nearby_;
     std::vector<Candidate> candidates_;
     Field<int32_t> fill_;
 };

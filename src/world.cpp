@@ -31,6 +31,7 @@ std::unique_ptr<World> make_world(const Scene &scene) {
     world->ranges.resize(blocks);
     if (scene.config().collision_distance > 0)
         world->colliding.resize(p.count);
+    world->walls.period = c.period;
     for (const PlateSpec &spec : scene.plates()) {
         world->walls.plates.emplace_back(spec);
         world->walls.plates.back().place(0, c.spacing / c.wave_speed);

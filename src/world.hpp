@@ -32,6 +32,7 @@ struct Ledger {
     double side_walls = 0;       // the part of the friction of side walls
     double plate_work = 0;       // done by the material on the plates
     double largest_kinetic = 0;
+    double wound = 0; // potential energy that particles left behind when they went round the period
 };
 
 // Sums of one step over one block of particles; a cache line each.
@@ -60,6 +61,7 @@ struct World {
 
     Particles particles;
     CellGrid grid;
+    Images images; // of a periodic scene, else empty
     NeighborList neighbors;
     Walls walls;
     Clock clock;

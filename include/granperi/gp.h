@@ -130,8 +130,12 @@ typedef struct gp_config {
     double channel_width;        /* m, W between the side walls; 0: none. Their friction, averaged over the width, is
                                     2 channel_friction p / W per volume against the velocity, and holds what it can [0] */
     double channel_friction;     /* Coulomb coefficient of the side walls; needs channel_width [0] */
-    double periodic_x_min;       /* m; with periodic_x_max > periodic_x_min the scene is periodic in x; */
-    double periodic_x_max;       /* not yet: GP_E_UNSUPPORTED unless both are equal [0, 0] */
+    double periodic_x_min;       /* m; with periodic_x_max > periodic_x_min the scene is periodic in x: columns and
+                                    particles begin within, positions return into the period now and then (they may be
+                                    beyond its ends by less than a spacing), and a plate reaches over the period at most:
+                                    one that just spans it has no ends */
+    double periodic_x_max;       /* m; the period is at least twice the horizon and the interaction radius and two
+                                    spacings more; best a whole number of spacings [0, 0] */
     int32_t threads;             /* OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The
                                     results are the same bits for any number */
     uint64_t seed;               /* of the jitter [0] */
@@ -171,9 +175,9 @@ typedef struct gp_column {
     int32_t material;         /* id of gp_add_material; 0 is always there [0] */
     double vx, vy;            /* m/s, initial velocity [0, 0] */
     int32_t initial_pressure; /* GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the
-                                 opposite face, for each face of normal n into which gravity presses and along which
-                                 plates cover at least half; nothing for a face that no plate supports. A loaded
-                                 plate on a column between two plates adds its normal_pressure */
+                                 opposite face, for each face of normal n into which gravity presses and at least half of
+                                 which rests on plates or on other hydrostatic columns so borne; to it is added what rests on
+                                 the opposite face: such columns, and the normal_pressure of plates. 0 where nothing bears */
 } gp_column;
 
 /* Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column). */

@@ -62,7 +62,8 @@ void account(World &world) {
         const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
         plate.force += reaction;
         const Vector &t = plate.segment().tangent;
-        plate.torque += plate.segment().along({p.x[i], p.y[i]}) * (t.x() * reaction.y() - t.y() * reaction.x());
+        plate.torque += plate.segment().along(world.walls.nearest_image(plate, {p.x[i], p.y[i]})) *
+                        (t.x() * reaction.y() - t.y() * reaction.x());
         contact_power += p.volume * (contact.ghost_power + contact.power);
         plate_power -= reaction.dot(plate.velocity());
     }

@@ -36,6 +36,8 @@ void collide(World &world) {
     Particles &p = world.particles;
     const double distance = world.scene->config().collision_distance * world.constants.spacing;
     const double dt = world.clock.dt;
+    world.images.copy_positions(p);
+    world.images.copy({&p.vx, &p.vy});
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         int64_t colliding = 0;
         for (int64_t i = begin; i < end; ++i) {
@@ -52,6 +54,8 @@ void collide(World &world) {
         colliding += block.collisions;
     if (colliding == 0)
         return;
+
+    world.images.copy(world.colliding);
 
     // sigma K^-1 has done its work: its first row holds the velocity changes.
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {

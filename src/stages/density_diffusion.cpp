@@ -84,6 +84,7 @@ void density_diffusion(World &world) {
             p.flowing[i] = flows ? 1.0 : 0.0;
         }
     });
+    world.images.copy({&p.cxy, &p.flowing, &p.density});
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         exchange(view, begin, end);
         double lost = 0;

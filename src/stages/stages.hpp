@@ -13,6 +13,8 @@ double stable_dt(const Constants &constants);
 
 void move_plates(World &world);
 void update_neighbors(World &world);
+// Positions and velocities of the images across the ends of the period.
+void update_images(World &world);
 
 // Ghost velocities through the plates' surfaces.
 void wall_velocity(World &world);

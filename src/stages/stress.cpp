@@ -84,6 +84,12 @@ void stress(World &world) {
     const auto rows = world.constants.penalty > 0 ? stress_rows<true> : stress_rows<false>;
     for_each_block(world.threads, world.particles.count,
                    [&](int64_t block, int64_t begin, int64_t end) { rows(world, block, begin, end); });
+    Particles &p = world.particles;
+    world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
+    if (world.constants.penalty > 0)
+        world.images.copy(p.stressed);
+    if (world.walls.in_reach()) // ghosts extrapolate from these
+        world.images.copy({&p.pressure, &p.density, &p.sxx, &p.sxy});
 }
 
 } // namespace gp::stages

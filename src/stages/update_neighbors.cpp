@@ -13,6 +13,19 @@ void move_plates(World &world) {
 
 namespace {
 
+// Takes particles and plates that have left the period back into it.
+void wrap(World &world) {
+    Particles &p = world.particles;
+    const Period &period = world.constants.period;
+    for (int64_t i = 0; i < p.count; ++i)
+        if (const double shift = period.shift_of(p.x[i]); shift != 0) {
+            p.x[i] -= shift;
+            world.ledger.wound -= world.material_of(i).density * p.volume * world.constants.gravity.x() * shift;
+        }
+    for (Plate &plate : world.walls.plates)
+        plate.wrap(period, world.clock.time);
+}
+
 // Bounds of the skin in dl. The best skin weighs pairs that do nothing against rebuilds; with a rebuild as dear as a
 // few steps it grows with the root of the shift per step.
 constexpr double thinnest_skin = 0.1, thickest_skin = 0.8, skin_factor = 2.0;
@@ -30,14 +43,29 @@ void update_neighbors(World &world) {
     const double radius = c.horizon + world.skin;
     const double close = world.scene->config().collision_distance * c.spacing + world.skin;
     const double tolerance = 1e-9 * c.spacing;
+    const Period &period = c.period;
+    if (period)
+        wrap(world);
     world.grid.sort(world.particles, 0.5 * radius, world.threads);
     for (Plate &plate : world.walls.plates)
         plate.place(world.clock.time, world.clock.dt);
-    find_neighbors(world.particles, world.grid, radius, close,
+    if (period) {
+        // Ghosts up to `radius` beyond the ends extrapolate from what is within `radius` of them.
+        world.images.make(world.particles, period, 2 * radius);
+        if (!world.colliding.empty())
+            world.colliding.resize(world.particles.count + world.images.count);
+    }
+    find_neighbors(world.particles, world.grid, world.images, radius, close,
                    world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads,
                    world.neighbors);
-    world.walls.find_contacts(world.particles, world.grid, radius, c.spacing, world.threads);
+    world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing, world.threads);
     world.lists_valid = true;
+}
+
+void update_images(World &world) {
+    Particles &p = world.particles;
+    world.images.copy_positions(p);
+    world.images.copy({&p.vx, &p.vy});
 }
 
 } // namespace gp::stages

@@ -25,7 +25,7 @@ void push(World &world, const Contact &contact, const Vector &change) {
     const Vector mean = Vector(p.vx[i], p.vy[i]) + 0.5 * change - share;
     const Vector reaction = -mass / world.clock.dt * change;
     plate.force += reaction;
-    const double lever = plate.segment().along({p.x[i], p.y[i]});
+    const double lever = plate.segment().along(world.walls.nearest_image(plate, {p.x[i], p.y[i]}));
     const Vector &t = plate.segment().tangent;
     plate.torque += lever * (t.x() * reaction.y() - t.y() * reaction.x());
     const double plate_power_on_material = mass * change.dot(plate.velocity());
@@ -66,7 +66,7 @@ void wall_contact(World &world) {
         const Segment &s = plate.segment();
         const int64_t i = contact.particle;
         const Vector moved = world.clock.dt * plate.velocity(); // of the plate in this step
-        const Vector at = Vector(p.x[i], p.y[i]) - moved;
+        const Vector at = world.walls.nearest_image(plate, {p.x[i], p.y[i]}) - moved;
         if (s.distance(at) >= nearest || !s.covers(s.along(at), 0.0))
             continue;
         const Vector relative = Vector(p.vx[i], p.vy[i]) - plate.velocity();

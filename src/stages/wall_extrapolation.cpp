@@ -29,6 +29,7 @@ void wall_velocity(World &world) {
         for (int64_t k = begin; k < end; ++k) {
             const Plate &plate = w.plates[w.ghost_plate[k]];
             const Segment &s = plate.segment();
+            const double shift = w.ghost_shift.empty() ? 0.0 : w.ghost_shift[k];
             double sw = 0, su = 0, sv = 0, sd = 0;
             for (int64_t e = w.particles_of_ghost.start[k]; e < w.particles_of_ghost.start[k + 1]; ++e) {
                 const int32_t i = w.particles_of_ghost.index[e];
@@ -36,7 +37,7 @@ void wall_velocity(World &world) {
                 sw += q;
                 su += q * p.vx[i];
                 sv += q * p.vy[i];
-                sd += q * s.distance({p.x[i], p.y[i]});
+                sd += q * s.distance({p.x[i] - shift, p.y[i]});
             }
             if (sw <= 0) { // in the skin only
                 w.ghost_vx[k] = plate.velocity().x();

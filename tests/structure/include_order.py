@@ -7,8 +7,9 @@ import sys
 LAYERS = [
     ["granperi/gp", "error", "check", "parallel"],
     ["geometry", "kernel", "material/return_map"],
-    ["scene", "scene_constants", "scene_defaults"],
+    ["scene", "scene_constants", "scene_defaults", "scene_pressure"],
     ["particles"],
+    ["periodic"],
     ["neighbors"],
     ["operators", "walls"],
     ["world", "ledger"],
