@@ -405,11 +405,11 @@ def exact(path: Path, results: Collection) -> bool:
     drawn = False
     for color, (case, (all_r, _)) in zip(colors, runs.EXACT_CASES.items()):
         found = [(r, results(runs.exact(case, r))) for r in all_r]
-        found = [(r, result) for r, result in found if result and result.summary.get("error", 0) > 0]
+        found = [(r, result) for r, result in found if result and result.summary.get("error", 0) != 0]
         if not found:
             continue
         drawn = True
-        errors = [result.summary["error"] for _, result in found]
+        errors = [abs(result.summary["error"]) for _, result in found]
         left.plot([r for r, _ in found], errors, "o-", color=color, ms=7, label=case.replace("_", " "))
         right.plot([max(result.cpu, 1e-3) for _, result in found], errors, "o-", color=color, ms=7)
     if not drawn:

@@ -113,7 +113,7 @@ def exact(results: Collection) -> str:
         for r in all_r:
             run = runs.exact(case, r)
             result = results(run)
-            error = result.summary.get("error") if result else None
+            error = abs(result.summary["error"]) if result and "error" in result.summary else None
             order = None
             if error and before and before[1] > 0:
                 order = math.log(before[1] / error) / math.log(r / before[0])

@@ -16,8 +16,8 @@ from typing import Any
 import results
 from runs import Run, all_runs
 
-# Exit status of our programs when this version of the library does not have what was asked for.
-UNSUPPORTED = 3
+# Exit status of our programs when an argument is wrong, and when this version of the library does not have what was asked.
+REFUSED, UNSUPPORTED = 2, 3
 QUICK = 15.0  # CPU s, estimated: what a quick pass leaves out
 
 
@@ -63,6 +63,8 @@ def execute(run: Run, build: Path) -> dict[str, Any]:
             data.update(status="ok", summary=results.read_summary(done.stdout), tables=results.read_tables(prefix))
             if "cpu_seconds" not in data["summary"]:
                 data.update(status="failed", message="its summary has no cpu_seconds")
+        elif done.returncode == REFUSED and run.program == "exact":
+            data["status"] = "missing"  # a case that this program does not have
         else:
             data["status"] = "unsupported" if done.returncode == UNSUPPORTED else "failed"
     return data

@@ -68,14 +68,14 @@ ASPECTS = (0.5, 1.0, 1.42, 2.0, 3.0, 5.0, 7.0, 10.0)
 BOTH_SIDE_TIMES = "0.12,0.129,0.189,0.22,0.42,1,2,3"
 CODE_RESOLUTIONS = (16, 32, 64, 128)
 CONTACT_SPACINGS = 32  # spacings in the height of the contact-dynamics columns
-EXACT_CASES = {  # resolutions and a rough cost of the coarsest in CPU s
-    "hydrostatic": ((10, 20, 40), 1.0),
-    "shear_box": ((10, 20, 40), 1.0),
-    "bagnold": ((10, 20, 40), 5.0),
-    "bagnold_startup": ((10, 20, 40), 2.0),
-    "chute": ((10, 20, 40), 3.0),
-    "couette_cell": ((15, 30, 60), 3.0),
-    "slope": ((10, 20), 5.0),
+EXACT_CASES = {  # resolutions, and a rough cost of the coarsest in CPU s
+    "hydrostatic": ((10, 20, 40, 80), 0.15),
+    "shear_box": ((10, 20, 40), 1.2),
+    "bagnold": ((10, 20, 40), 2.0),
+    "bagnold_startup": ((10, 20, 40, 80), 0.1),
+    "chute": ((10, 20, 40), 0.6),
+    "couette_cell": ((15, 30, 60), 4.0),
+    "slope": ((10, 20, 40), 0.4),
     "gradient": ((10, 20, 40, 80), 0.1),
 }
 COUETTE_CASES = (1, 2, 3)
@@ -173,14 +173,14 @@ def contact_dynamics(aspect: float) -> Run:
 
 
 def couette(case: int) -> Run:
-    return Run(f"couette_case{case}", "couette", ("--case", str(case), "--threads", "1"), 15.0)
+    return Run(f"couette_case{case}", "couette", ("--case", str(case), "--threads", "1"), 9.0)
 
 
 def exact(case: str, resolution: int) -> Run:
-    """Cost grows with the particles and the steps, by the cube of the resolution."""
+    """Layers of a fixed number of columns: particles and steps both grow with the resolution."""
     resolutions, cost = EXACT_CASES[case]
     return Run(f"exact_{case}_{resolution}", "exact", (case, "--resolution", str(resolution)),
-               cost * (resolution / resolutions[0]) ** 3)
+               cost * (resolution / resolutions[0]) ** 2)
 
 
 def resolution_end(scheme: str, resolution: int) -> float:
