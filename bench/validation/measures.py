@@ -9,8 +9,6 @@ import references as ref
 from results import Result
 
 
-
-
 def peak(result: Result, time: float = ref.PEAK_TIME) -> float:
     """Highest point over L, of the paper's two-sided columns."""
     return result.at("peak_height", time) / ref.WIDTH
@@ -23,7 +21,7 @@ def run_out_at(result: Result, time: float) -> float:
 
 
 def contact_front(result: Result, time: float, height: float, threshold: float) -> float:
-    """Outermost x/H0 at which the surface is above the threshold x H0, mean of both sides: as the references have it."""
+    """Outermost x/H0 at which the surface is above the threshold x H0, mean of both sides, as in references.py."""
     x, surface = result.surface(time)
     above = x[surface > threshold * height]
     return float((above.max() - above.min()) / 2 / height) if len(above) else math.nan

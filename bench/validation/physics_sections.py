@@ -1,4 +1,4 @@
-"""Sections of docs/validation.md beyond the paper: scaling laws, contact dynamics, other codes, Couette, exact solutions."""
+"""Sections of docs/validation.md beyond the collapses of the paper: scaling, discs, other codes, Couette, theory."""
 from __future__ import annotations
 
 import math
@@ -20,13 +20,40 @@ def scaling(results: Collection) -> str:
             result = results(runs.scaling(a, sides))
             run_out = result.summary["run_out"] if result else None
             height = result.summary["peak_height"] / result.summary["reference_length"] if result else None
-            rows.append([f"{a:g}", fixed(run_out, 2), fixed(ref.lube_run_out(a), 2), fixed(ref.lajeunesse_run_out(a), 2),
-                         fixed(ref.staron_run_out(a), 2), fixed(ref.lagree_run_out(a), 2),
-                         percent(run_out, ref.lagree_run_out(a), 0), fixed(height, 2), fixed(ref.lube_height(a), 2),
-                         fixed(ref.staron_height(a), 2), cpu(result.cpu if result else None)])
-        parts.append(f"**{name}**\n\n" + table(
-            ["a", "run-out", "Lube", "Lajeunesse", "Staron & Hinch", "Lagrée", "off Lagrée", "height/L0", "Lube", "Staron & Hinch",
-             "CPU s"], rows))
+            rows.append(
+                [
+                    f"{a:g}",
+                    fixed(run_out, 2),
+                    fixed(ref.lube_run_out(a), 2),
+                    fixed(ref.lajeunesse_run_out(a), 2),
+                    fixed(ref.staron_run_out(a), 2),
+                    fixed(ref.lagree_run_out(a), 2),
+                    percent(run_out, ref.lagree_run_out(a), 0),
+                    fixed(height, 2),
+                    fixed(ref.lube_height(a), 2),
+                    fixed(ref.staron_height(a), 2),
+                    cpu(result.cpu if result else None),
+                ]
+            )
+        parts.append(
+            f"**{name}**\n\n"
+            + table(
+                [
+                    "a",
+                    "run-out",
+                    "Lube",
+                    "Lajeunesse",
+                    "Staron & Hinch",
+                    "Lagrée",
+                    "off Lagrée",
+                    "height/L0",
+                    "Lube",
+                    "Staron & Hinch",
+                    "CPU s",
+                ],
+                rows,
+            )
+        )
     return "\n\n".join(parts)
 
 
@@ -36,11 +63,17 @@ def contact_rows(result: Result, a: float) -> list[dict[str, float]]:
     unit = math.sqrt(data["height"] / runs.GRAVITY)
     rows = []
     for k, t in enumerate(data["times"]):
-        rows.append({"time": t, "front_02": contact_front(result, t * unit, data["height"], 0.02),
-                     "front_05": contact_front(result, t * unit, data["height"], 0.05),
-                     "peak": result.at("peak_height", t * unit) / data["height"],
-                     "discs_front_02": data["front_02"][k], "discs_front_05": data["front_05"][k],
-                     "discs_peak": data["peak"][k]})
+        rows.append(
+            {
+                "time": t,
+                "front_02": contact_front(result, t * unit, data["height"], 0.02),
+                "front_05": contact_front(result, t * unit, data["height"], 0.05),
+                "peak": result.at("peak_height", t * unit) / data["height"],
+                "discs_front_02": data["front_02"][k],
+                "discs_front_05": data["front_05"][k],
+                "discs_peak": data["peak"][k],
+            }
+        )
     return rows
 
 
@@ -59,12 +92,30 @@ def contact_dynamics(results: Collection) -> str:
         for row in contact_rows(result, a):
             cells = [f"{row['time']:g}"]
             for name, digits in (("front_02", 2), ("front_05", 2), ("peak", 3)):
-                cells += [fixed(row[name], digits), fixed(row[f"discs_{name}"], digits),
-                          ("yes" if agrees(row, name) else "**no**") + f" ({percent(row[name], row[f'discs_{name}'], 0)})"]
+                cells += [
+                    fixed(row[name], digits),
+                    fixed(row[f"discs_{name}"], digits),
+                    ("yes" if agrees(row, name) else "**no**") + f" ({percent(row[name], row[f'discs_{name}'], 0)})",
+                ]
             rows.append(cells)
-        parts.append(f"**a = {a:g}**, {result.summary['particles']:.0f} particles, {cpu(result.cpu)} CPU s\n\n" + table(
-            ["t / √(H0/g)", "front, h > 0.02 H0", "discs", "within 10 %", "front, h > 0.05 H0", "discs", "within 10 %", "peak",
-             "discs", "within 10 %"], rows))
+        parts.append(
+            f"**a = {a:g}**, {result.summary['particles']:.0f} particles, {cpu(result.cpu)} CPU s\n\n"
+            + table(
+                [
+                    "t / √(H0/g)",
+                    "front, h > 0.02 H0",
+                    "discs",
+                    "within 10 %",
+                    "front, h > 0.05 H0",
+                    "discs",
+                    "within 10 %",
+                    "peak",
+                    "discs",
+                    "within 10 %",
+                ],
+                rows,
+            )
+        )
     return "\n\n".join(parts)
 
 
@@ -76,21 +127,45 @@ def codes(results: Collection) -> str:
             rows.append(["granperi, default", "peridynamic particles", str(r)] + [NONE] * 4)
             continue
         long = result.summary["time"] >= 3
-        rows.append(["granperi, default", "peridynamic particles", str(r), cpu(result.cpu / result.summary["time"]),
-                     fixed(peak(result)), fixed(peak(result, 3.0)) if long else NONE,
-                     fixed(run_out_at(result, 3.0), 2) if long else f"{fixed(run_out_at(result, result.summary['time']), 2)} at "
-                                                                    f"{result.summary['time']:g} s"])
+        rows.append(
+            [
+                "granperi, default",
+                "peridynamic particles",
+                str(r),
+                cpu(result.cpu / result.summary["time"]),
+                fixed(peak(result)),
+                fixed(peak(result, 3.0)) if long else NONE,
+                fixed(run_out_at(result, 3.0), 2)
+                if long
+                else f"{fixed(run_out_at(result, result.summary['time']), 2)} at " f"{result.summary['time']:g} s",
+            ]
+        )
     for code, method, r, seconds, early, late, run_out, inflated in ref.INDEPENDENT_CODES:
-        rows.append([code, method, NONE if r is None else str(r),
-                     NONE if seconds is None else f"{seconds:g}{' *' if inflated else ''}", fixed(early), fixed(late),
-                     fixed(run_out, 2)])
-    return (table(["code", "method", "L/dl", "CPU s per simulated s", "peak y/L at 0.42 s", "at 3 s", "run-out at 3 s"], rows) +
-            "\n\n\\* while the machine had other work: inflated by some 10 to 30 %.")
+        rows.append(
+            [
+                code,
+                method,
+                NONE if r is None else str(r),
+                NONE if seconds is None else f"{seconds:g}{' *' if inflated else ''}",
+                fixed(early),
+                fixed(late),
+                fixed(run_out, 2),
+            ]
+        )
+    return (
+        table(
+            ["code", "method", "L/dl", "CPU s per simulated s", "peak y/L at 0.42 s", "at 3 s", "run-out at 3 s"], rows
+        )
+        + "\n\n\\* while the machine had other work: inflated by some 10 to 30 %."
+    )
 
 
 def couette(results: Collection) -> str:
-    names = {1: "d = 1 mm, P = 102.3 Pa, U = 0.0003 m/s", 2: "the same, U = 0.0013 m/s",
-             3: "Cawthorn's cell: d = 2.5 mm, P = 1600 Pa, U = 2.5 m/s"}
+    names = {
+        1: "d = 1 mm, P = 102.3 Pa, U = 0.0003 m/s",
+        2: "the same, U = 0.0013 m/s",
+        3: "Cawthorn's cell: d = 2.5 mm, P = 1600 Pa, U = 2.5 m/s",
+    }
     rows = []
     for case in runs.COUETTE_CASES:
         result = results(runs.couette(case))
@@ -99,9 +174,15 @@ def couette(results: Collection) -> str:
             continue
         depth, ours, theory = couette_profile(result)
         deep = depth > 5
-        rows.append([names[case], significant(result.summary.get("error"), 2),
-                     significant(float(abs(ours[deep]).max()) if deep.any() else None, 2),
-                     significant(float(abs(theory[deep]).max()) if deep.any() else None, 2), cpu(result.cpu)])
+        rows.append(
+            [
+                names[case],
+                significant(result.summary.get("error"), 2),
+                significant(float(abs(ours[deep]).max()) if deep.any() else None, 2),
+                significant(float(abs(theory[deep]).max()) if deep.any() else None, 2),
+                cpu(result.cpu),
+            ]
+        )
     return table(["cell", "largest error of u/U", "largest u/U below 5 d", "exact, below 5 d", "CPU s"], rows)
 
 
@@ -117,8 +198,15 @@ def exact(results: Collection) -> str:
             order = None
             if error and before and before[1] > 0:
                 order = math.log(before[1] / error) / math.log(r / before[0])
-            rows.append([case.replace("_", " "), str(r), significant(error), fixed(order, 2),
-                         f"{result.summary.get('particles', math.nan):.0f}" if result else NONE,
-                         significant(result.cpu, 2) if result else results.absent[run.name]])
+            rows.append(
+                [
+                    case.replace("_", " "),
+                    str(r),
+                    significant(error),
+                    fixed(order, 2),
+                    f"{result.summary.get('particles', math.nan):.0f}" if result else NONE,
+                    significant(result.cpu, 2) if result else results.absent[run.name],
+                ]
+            )
             before = (r, error) if error else None
     return table(["case", "resolution", "error", "order", "particles", "CPU s"], rows)

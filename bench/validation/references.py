@@ -53,16 +53,16 @@ def staron_height(a: float) -> float:
 
 
 def lagree_run_out(a: float) -> float:
-    """Lagree, Staron & Popinet (2011), J. Fluid Mech. 686: mu(I) continuum, two dimensions."""
+    """Lagrée, Staron & Popinet (2011), J. Fluid Mech. 686: mu(I) continuum, two dimensions."""
     return 2.2 * a if a < 7.0 else 3.9 * a**0.7
 
 
 # ---------------------------------------------------------------------------------------------- contact dynamics
-# Columns of discs collapsing to both sides: the data of Staron & Hinch (2005) that Lagree, Staron & Popinet (2011) compare
-# their continuum with, published with M1EMN/Exemples/granular_column.c of the Basilisk wiki (ShapeTime.A-01, A-04).
+# Columns of discs collapsing to both sides: data of Staron & Hinch (2005) with which Lagrée, Staron & Popinet (2011)
+# compare their continuum, published with M1EMN/Exemples/granular_column.c of the Basilisk wiki (ShapeTime.A-01, A-04).
 # Measured from those profiles: by t / sqrt(H0/g), the front (mean of both sides, outermost x/H0 with h/H0 above the
-# threshold) and the highest h/H0. Discs are H0/29.8 (a = 0.5) and H0/64.8 (a = 1.42) across, so that 0.02 H0 is less than
-# a disc or little more: single discs that roll on count there, while 0.05 H0 leaves them out.
+# threshold) and the highest h/H0. Discs are H0/29.8 (a = 0.5) and H0/64.8 (a = 1.42) across, so that 0.02 H0 is less
+# than a disc or little more: single discs that roll on count there, while 0.05 H0 leaves them out.
 CONTACT_DYNAMICS = {
     0.5: {
         "height": 0.149,
@@ -81,10 +81,12 @@ CONTACT_DYNAMICS = {
         "peak": [1.012, 0.816, 0.651, 0.576, 0.536, 0.527, 0.527],
     },
 }
-# The friction with which Lagree et al. compare: mu = 0.32 + 0.28 / (1 + 0.40 / I), with the flow's density in I.
+# The friction with which Lagrée et al. compare: mu = 0.32 + 0.28 / (1 + 0.40 / I), with the flow's density in I.
 LAGREE_MU_S, LAGREE_MU_2, LAGREE_I0 = 0.32, 0.60, 0.40
-CONTACT_DYNAMICS_SOURCE = ("Staron & Hinch (2005), data in Lagree, Staron & Popinet (2011) and the Basilisk wiki, "
-                           "M1EMN/Exemples/granular_column.c")
+CONTACT_DYNAMICS_SOURCE = (
+    "Staron & Hinch (2005), data in Lagrée, Staron & Popinet (2011) and the Basilisk wiki, "
+    "M1EMN/Exemples/granular_column.c"
+)
 
 # ----------------------------------------------------------------------------------------------- friction, walls
 # Ionescu et al. (2015) account for the side walls of the channel by a raised friction.
@@ -92,15 +94,15 @@ RAISED_MU_S_DEGREES, RAISED_MU_2_DEGREES = 25.5, 36.5
 
 
 def highest_deposit(area: float, mu_s: float) -> float:
-    """Height (m) that an arrested two-sided deposit of this area (m2) can have at most: a triangle at the steepest static
-    slope, sin(slope) = mu_s."""
+    """Height (m) that an arrested two-sided deposit of this area (m2) can have at most: a triangle at the steepest
+    static slope, sin(slope) = mu_s."""
     return math.sqrt(area * math.tan(math.asin(mu_s)))
 
 
 # ---------------------------------------------------------------------------------------- independent public codes
-# The a = 1.25 column with the same mu(I) and instant release, run with public codes on a machine with two cores of x86-64,
-# one thread: code, method, L/dl (None: discs of the grain diameter), CPU s per simulated s, peak y/L at 0.42 s and at 3 s,
-# run-out (x - L0)/L0 at 3 s, whether the times of run were inflated (by some 10-30 %) by other work.
+# The a = 1.25 column with the same mu(I) and instant release, run with public codes on a machine with two cores of
+# x86-64, one thread: code, method, L/dl (None: discs of the grain diameter), CPU s per simulated s, peak y/L at 0.42 s
+# and at 3 s, run-out (x - L0)/L0 at 3 s, whether the times of run were inflated (by some 10-30 %) by other work.
 INDEPENDENT_CODES = [
     ("Matter bf948b6, c = 10 m/s", "MPM, return map", 32, 1.60, 0.424, 0.420, 1.91, False),
     ("Matter bf948b6, c = 10 m/s", "MPM, return map", 64, 11.3, 0.417, 0.416, 1.96, False),
@@ -115,4 +117,6 @@ INDEPENDENT_CODES = [
 CODES_PEAK_BAND = (0.409, 0.427)  # of those with the friction as given
 
 # -------------------------------------------------------------------------------------------------------- Couette
-COUETTE_SOURCE = "appendix of Jin et al. (2021); experiment of Siavoshi, Orpe & Kudrolli (2006), a figure without numbers"
+COUETTE_SOURCE = (
+    "appendix of Jin et al. (2021); experiment of Siavoshi, Orpe & Kudrolli (2006), a figure without numbers"
+)

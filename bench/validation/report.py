@@ -15,8 +15,16 @@ import verdicts
 from paper_sections import figure
 from results import Collection
 
-SCALING_SOURCES = ("Lube et al. (2005) and Lajeunesse et al. (2005) are experiments in channels, Staron & Hinch (2005) contact "
-                   "dynamics of discs, Lagrée et al. (2011) a μ(I) continuum, both in two dimensions without side walls.")
+SCALING_SOURCES = (
+    "Lube et al. (2005) and Lajeunesse et al. (2005) are experiments in channels, Staron & Hinch (2005) contact "
+    "dynamics of discs, Lagrée et al. (2011) a μ(I) continuum, both in two dimensions without side walls."
+)
+
+RUN_TIME_CAPTION = (
+    "Error against run time. Left: from the experiment, which says how good the model is. Right: from the finest grid "
+    "of the same code, which says how good the numerics are (0.05 % and less drawn as 0.05 %)"
+)
+PEAK_CAPTION = "Highest point against time. Left: the schemes; right: their horizons, the paper's figure 4"
 
 
 def provenance(collection: Collection) -> str:
@@ -24,11 +32,15 @@ def provenance(collection: Collection) -> str:
     total = sum(result.cpu for result in found)
     commits = sorted({result.commit for result in found if result.commit})
     sources = {result.source for result in found}
-    text = (f"{len(collection.found)} runs, {total / 60:.0f} CPU minutes in all, one thread each; sources at "
-            f"commit {', '.join(commits) or 'unknown'}.")
+    text = (
+        f"{len(collection.found)} runs, {total / 60:.0f} CPU minutes in all, one thread each; sources at "
+        f"commit {', '.join(commits) or 'unknown'}."
+    )
     if len(sources) > 1:
-        text += (f" **The results come from {len(sources)} states of the sources**: run `scripts/validate` again for one "
-                 "state.")
+        text += (
+            f" **The results come from {len(sources)} states of the sources**: run `scripts/validate` again for one "
+            "state."
+        )
     if collection.absent:
         text += f" {len(collection.absent)} runs are missing: they are listed at the end, and their places hold a dash."
     return text
@@ -40,11 +52,13 @@ def compose(collection: Collection, drawn: set[str]) -> str:
     body = f"""## Every scene of the paper
 
 Jin, Lu, Tai & Xu (2021) print few numbers; most of their comparisons are figures, so that only these can be set beside
-ours. "As printed" is their scheme with the factor 2 of their equation 3.12, "factor 1" the same with μ(I) p as the stress of
-simple shear. The default scheme has no side walls; "side walls" has the friction of a channel's walls
+ours. "As printed" is their scheme with the factor 2 of their equation 3.12, "factor 1" the same with μ(I) p as the
+stress of simple shear. The default scheme has no side walls; "side walls" has the friction of a channel's walls
 ({runs.CHANNEL_WIDTH:g} m apart, coefficient {runs.CHANNEL_FRICTION:g}), "raised friction" has
-{ref.RAISED_MU_S_DEGREES:g}° and {ref.RAISED_MU_2_DEGREES:g}° in place of 21° and 32° ({ref.IONESCU}). The gates clear their
-columns in {runs.DEFAULT_LIFT_TIME:g} s: the paper gives their motion as a figure only. CPU s are those of the whole run.
+{ref.RAISED_MU_S_DEGREES:g}° and {ref.RAISED_MU_2_DEGREES:g}° in place of 21° and 32°
+({ref.IONESCU}).
+The gates clear their columns in {runs.DEFAULT_LIFT_TIME:g} s: the paper gives their motion as a figure only. CPU s are
+those of the whole run.
 
 {paper.main_table(collection)}
 
@@ -54,7 +68,7 @@ H = 0.05 m, L = 0.08 m, d = 2 mm, L/dl = 32; the {ref.XU2017}.
 
 {figure("both_side", drawn, "Free surfaces; dotted: the column at the start. The paper's figures 3 and 8")}
 
-{figure("peak_in_time", drawn, "Highest point against time. Left: the schemes; right: their horizons, the paper's figure 4")}
+{figure("peak_in_time", drawn, PEAK_CAPTION)}
 
 {figure("velocity", drawn, "Horizontal velocity on two sections at two instants, the paper's figure 5")}
 
@@ -70,7 +84,7 @@ Peak y/L of a = 1.25, L/dl = 32:
 
 {figure("resolution", drawn, "Peak and run-out at 0.42 s against the resolution")}
 
-{figure("run_time", drawn, "Error against run time. Left: from the experiment, which says how good the model is. Right: from the finest grid of the same code, which says how good the numerics are (0.05 % and less drawn as 0.05 %)")}
+{figure("run_time", drawn, RUN_TIME_CAPTION)}
 
 ### Lifting of the gates
 
@@ -109,8 +123,10 @@ H = 0.14 m, L = 0.20 m (section 5.2 of the paper swaps them), d = 0.7 mm, dl = 2
 
 ## Plane Couette flow with gravity
 
-The program is [examples/c/couette.c](../examples/c/couette.c); set-up of the {ref.COUETTE_SOURCE}. "Exact" is the profile of the local μ(I) law, whose band of shear
-is thinner than a grain in the first two cells: what is wider there is the numerics'.
+The program is [examples/c/couette.c](../examples/c/couette.c); set-up of the
+{ref.COUETTE_SOURCE}.
+"Exact" is the profile of the local μ(I) law, whose band of shear is thinner than a grain, and than a spacing, in the
+first two cells: a wider band there comes from the numerics.
 
 {physics.couette(collection)}
 
@@ -126,10 +142,11 @@ a = H0/L0, default scheme with tan 21° and tan 32°, instant release, at 6 √(
 
 ## Contact dynamics of discs
 
-The data: {ref.CONTACT_DYNAMICS_SOURCE}. Ours has the friction that Lagrée et al. (2011) use for the same data (μ_s = {ref.LAGREE_MU_S:g},
-μ_2 = {ref.LAGREE_MU_2:g}, I0 = {ref.LAGREE_I0:g}, the discs' diameter), fitted to neither case; {runs.CONTACT_SPACINGS} spacings
-in H0. The front is the outermost point at which the surface is above 0.02 or 0.05 H0. Single discs that roll ahead of the
-deposit count at 0.02 H0, as single particles do in ours, whose spacing is {1 / runs.CONTACT_SPACINGS:.3f} H0.
+The data: {ref.CONTACT_DYNAMICS_SOURCE}.
+Ours has the friction that Lagrée et al. (2011) use for the same data (μ_s = {ref.LAGREE_MU_S:g}, μ_2 = {ref.LAGREE_MU_2:g},
+I0 = {ref.LAGREE_I0:g}, the discs' diameter), fitted to neither case; {runs.CONTACT_SPACINGS} spacings in H0. The front is
+the outermost point at which the surface is above 0.02 or 0.05 H0. Single discs that roll ahead of the deposit count at
+0.02 H0, as single particles do in ours, whose spacing is {1 / runs.CONTACT_SPACINGS:.3f} H0.
 
 {physics.contact_dynamics(collection)}
 
@@ -162,8 +179,8 @@ The column of a = 1.25, gates gone at once, with public codes at the same μ(I).
 """
     head = f"""# Validation
 
-Made by `scripts/validate` ([bench/validation](../bench/validation)); `scripts/validate --report-only` writes it anew from the
-results in `results/validation`. Every number is measured by a run or cited from
+Made by `scripts/validate` ([bench/validation](../bench/validation)); `scripts/validate --report-only` writes it anew
+from the results in `results/validation`. Every number is measured by a run or cited from
 [references.py](../bench/validation/references.py). {provenance(collection)}
 
 {bullets(short)}
@@ -178,7 +195,9 @@ def missing_runs(collection: Collection) -> str:
     reasons: dict[str, list[str]] = {}
     for name, why in collection.absent.items():
         reasons.setdefault(why, []).append(name)
-    return "\n## Missing runs\n\n" + bullets(f"{why}: {', '.join(sorted(names))}" for why, names in reasons.items()) + "\n"
+    return (
+        "\n## Missing runs\n\n" + bullets(f"{why}: {', '.join(sorted(names))}" for why, names in reasons.items()) + "\n"
+    )
 
 
 def bullets(lines) -> str:
@@ -194,7 +213,9 @@ def tidy(text: str) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--results", type=Path, default=results.DIRECTORY, help="where the results are [results/validation]")
+    parser.add_argument(
+        "--results", type=Path, default=results.DIRECTORY, help="where the results are [results/validation]"
+    )
     parser.add_argument("--docs", type=Path, default=results.ROOT / "docs", help="where validation.md goes [docs]")
     arguments = parser.parse_args()
     collection = Collection(arguments.results)

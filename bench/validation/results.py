@@ -25,8 +25,10 @@ class Result:
         self.commit: str = data["commit"]
         self.output: str = data["output"]
         self.summary: dict[str, float] = data["summary"]
-        self.tables = {name: {column: np.array(values, dtype=float) for column, values in table.items()}
-                       for name, table in data["tables"].items()}
+        self.tables = {
+            name: {column: np.array(values, dtype=float) for column, values in table.items()}
+            for name, table in data["tables"].items()
+        }
 
     @property
     def cpu(self) -> float:
@@ -61,8 +63,8 @@ class Result:
         return (rows["x"], rows["height"]) if rows else (np.array([]), np.array([]))
 
     def interface_angle(self, time: float, low: float, high: float) -> float:
-        """Degrees to the vertical of the line fitted to the interface between two fractions of its height; NaN for none.
-        Positive: it leans to the right."""
+        """Degrees to the vertical of the line fitted to the interface between two fractions of its height; NaN for
+        none. Positive: it leans to the right."""
         rows = self.select("interface", time)
         if not rows or len(rows["y"]) < 4:
             return math.nan

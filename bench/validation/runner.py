@@ -16,7 +16,7 @@ from typing import Any
 import results
 from runs import Run, all_runs
 
-# Exit status of our programs when an argument is wrong, and when this version of the library does not have what was asked.
+# Exit status of our programs when an argument is wrong, and when the library does not have what was asked for.
 REFUSED, UNSUPPORTED = 2, 3
 QUICK = 15.0  # CPU s, estimated: what a quick pass leaves out
 
@@ -33,8 +33,9 @@ def source_hash(root: Path) -> str:
 
 def commit_of(root: Path) -> str:
     """Of the working tree; with a plus sign if it has changes. Empty outside a repository."""
-    described = subprocess.run(["git", "describe", "--always", "--dirty=+"], cwd=root, capture_output=True, text=True,
-                               check=False)
+    described = subprocess.run(
+        ["git", "describe", "--always", "--dirty=+"], cwd=root, capture_output=True, text=True, check=False
+    )
     return described.stdout.strip()
 
 
@@ -45,8 +46,15 @@ def program_path(build: Path, program: str) -> Path:
 def execute(run: Run, build: Path) -> dict[str, Any]:
     """Calls the program. What goes wrong becomes part of the result."""
     program = program_path(build, run.program)
-    data: dict[str, Any] = {"name": run.name, "program": run.program, "arguments": run.arguments, "summary": {}, "tables": {},
-                            "output": "", "message": ""}
+    data: dict[str, Any] = {
+        "name": run.name,
+        "program": run.program,
+        "arguments": run.arguments,
+        "summary": {},
+        "tables": {},
+        "output": "",
+        "message": "",
+    }
     if not program.exists():
         return {**data, "status": "missing", "message": f"there is no program {run.program}"}
     with tempfile.TemporaryDirectory() as scratch:
@@ -87,17 +95,27 @@ class Progress:
                 self.estimated += run.cost
                 self.spent += data["wall_seconds"]
             pace = self.spent / self.estimated if self.estimated > 0 else 1.0
-            what = f"{data['summary']['cpu_seconds']:.1f} CPU s" if data["status"] == "ok" else \
-                f"{data['status']}: {data['message']}"
-            print(f"[{self.done}/{self.total}] {run.name}: {what}; about {self.left * pace / self.workers / 60:.0f} min left",
-                  flush=True)
+            what = (
+                f"{data['summary']['cpu_seconds']:.1f} CPU s"
+                if data["status"] == "ok"
+                else f"{data['status']}: {data['message']}"
+            )
+            print(
+                f"[{self.done}/{self.total}] {run.name}: {what}; about "
+                f"{self.left * pace / self.workers / 60:.0f} min left",
+                flush=True,
+            )
 
 
 def is_current(run: Run, directory: Path, source: str, accept_older: bool) -> bool:
     """Whether there is a good result of the same options from the same sources."""
     data = results.load_raw(run, directory)
-    return (data is not None and data["status"] == "ok" and tuple(data["arguments"]) == run.arguments and
-            (accept_older or data["source"] == source))
+    return (
+        data is not None
+        and data["status"] == "ok"
+        and tuple(data["arguments"]) == run.arguments
+        and (accept_older or data["source"] == source)
+    )
 
 
 def main() -> int:
@@ -111,11 +129,17 @@ def main() -> int:
     arguments = parser.parse_args()
 
     source, commit = source_hash(results.ROOT), commit_of(results.ROOT)
-    wanted = [run for run in all_runs() if (not arguments.quick or run.cost <= QUICK) and
-              (not arguments.only or arguments.only in run.name)]
+    wanted = [
+        run
+        for run in all_runs()
+        if (not arguments.quick or run.cost <= QUICK) and (not arguments.only or arguments.only in run.name)
+    ]
     missing = [run for run in wanted if not is_current(run, arguments.results, source, arguments.accept_older)]
-    print(f"{len(wanted)} runs, {len(wanted) - len(missing)} of them done before; {len(missing)} to do, "
-          f"about {sum(run.cost for run in missing) / arguments.workers / 60:.0f} min", flush=True)
+    print(
+        f"{len(wanted)} runs, {len(wanted) - len(missing)} of them done before; {len(missing)} to do, "
+        f"about {sum(run.cost for run in missing) / arguments.workers / 60:.0f} min",
+        flush=True,
+    )
     progress = Progress(missing, arguments.workers)
     counts: dict[str, int] = {}
 

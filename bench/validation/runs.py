@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import references as ref
 
-# Side walls: glass plates 0.1 m apart, as the channel of Mangeney et al. (2010), and the friction of glass beads on glass
-# that Jop, Forterre & Pouliquen (2005) found, tan 10.4 degrees.
+# Side walls: glass plates 0.1 m apart, as the channel of Mangeney et al. (2010), and the friction of glass beads on
+# glass that Jop, Forterre & Pouliquen (2005) found, tan 10.4 degrees. Both from memory: not checked yet.
 CHANNEL_WIDTH = 0.10  # m
 CHANNEL_FRICTION = 0.18
 
@@ -46,12 +46,19 @@ class Scheme:
 
 
 SCHEMES = {
-    scheme.key: scheme for scheme in (
+    scheme.key: scheme
+    for scheme in (
         Scheme("default", "default", ()),
-        Scheme("raised", "default, raised friction",
-               ("--mu-s-degrees", f"{ref.RAISED_MU_S_DEGREES}", "--mu-2-degrees", f"{ref.RAISED_MU_2_DEGREES}")),
-        Scheme("walls", "default, side walls",
-               ("--channel-width", f"{CHANNEL_WIDTH}", "--channel-friction", f"{CHANNEL_FRICTION}")),
+        Scheme(
+            "raised",
+            "default, raised friction",
+            ("--mu-s-degrees", f"{ref.RAISED_MU_S_DEGREES}", "--mu-2-degrees", f"{ref.RAISED_MU_2_DEGREES}"),
+        ),
+        Scheme(
+            "walls",
+            "default, side walls",
+            ("--channel-width", f"{CHANNEL_WIDTH}", "--channel-friction", f"{CHANNEL_FRICTION}"),
+        ),
         Scheme("nonlocal_1", "paper, non-local, factor 1", ("--preset", "paper", "--friction-factor", "1"), 3.5, True),
         Scheme("nonlocal_2", "paper as printed, factor 2", ("--preset", "paper", "--friction-factor", "2"), 3.5, True),
         Scheme("local_1", "paper, local, factor 1", ("--preset", "local", "--friction-factor", "1"), 3.5, True),
@@ -85,15 +92,24 @@ def _number(value: float) -> str:
     return f"{value:g}"
 
 
-def collapse_cost(area: float, height: float, spacing: float, end: float, steps: float = 1.0, reach: float = 4.0) -> float:
-    """CPU s of a collapse: particles x steps of 0.8 dl / (1.14 c0), c0 = 10 sqrt(2 g H), and the number of neighbours."""
+def collapse_cost(
+    area: float, height: float, spacing: float, end: float, steps: float = 1.0, reach: float = 4.0
+) -> float:
+    """CPU s of a collapse: particles x steps of 0.8 dl / (1.14 c0), c0 = 10 sqrt(2 g H), x neighbours."""
     particles = area / spacing**2
     sound_speed = 10 * math.sqrt(2 * GRAVITY * height)
     return particles * steps * end * sound_speed * 1.14 / (0.8 * spacing) / TYPICAL_RATE * max(0.5, (reach / 4.0) ** 2)
 
 
-def both_side(scheme: str, aspect: float = 1.25, resolution: int = 32, end: float = 3.0, lift_time: float = DEFAULT_LIFT_TIME,
-              horizon: float | None = None, horizon_length: float | None = None) -> Run:
+def both_side(
+    scheme: str,
+    aspect: float = 1.25,
+    resolution: int = 32,
+    end: float = 3.0,
+    lift_time: float = DEFAULT_LIFT_TIME,
+    horizon: float | None = None,
+    horizon_length: float | None = None,
+) -> Run:
     """A two-sided collapse of the paper: L = 0.08 m."""
     s = SCHEMES[scheme]
     spacing = ref.WIDTH / resolution
@@ -116,17 +132,37 @@ def both_side(scheme: str, aspect: float = 1.25, resolution: int = 32, end: floa
     times = "0.2,0.36,0.67,1" if tall else BOTH_SIDE_TIMES
     sections = "0.02" if tall else "0.01,0.03"
     height = aspect * ref.WIDTH / 2
-    return Run(name, "scene",
-               ("both_side", "--aspect", _number(aspect), "--resolution", str(resolution), "--end", _number(end),
-                "--times", times, "--velocity-section", sections, *more, *s.options),
-               collapse_cost(height * ref.WIDTH, height, spacing, end, s.steps, reach))
+    return Run(
+        name,
+        "scene",
+        (
+            "both_side",
+            "--aspect",
+            _number(aspect),
+            "--resolution",
+            str(resolution),
+            "--end",
+            _number(end),
+            "--times",
+            times,
+            "--velocity-section",
+            sections,
+            *more,
+            *s.options,
+        ),
+        collapse_cost(height * ref.WIDTH, height, spacing, end, s.steps, reach),
+    )
 
 
 def one_side(scheme: str) -> Run:
     """Section 5.2 of the paper, with height and length as its experiment had them."""
     s = SCHEMES[scheme]
-    return Run(f"one_side_{scheme}", "scene", ("one_side", "--end", "1.02", "--times", "0.18,0.3,0.42,1.02", *s.options),
-               collapse_cost(0.14 * 0.20, 0.14, 0.0025, 1.02, s.steps))
+    return Run(
+        f"one_side_{scheme}",
+        "scene",
+        ("one_side", "--end", "1.02", "--times", "0.18,0.3,0.42,1.02", *s.options),
+        collapse_cost(0.14 * 0.20, 0.14, 0.0025, 1.02, s.steps),
+    )
 
 
 def colliding(case: int, scheme: str) -> Run:
@@ -136,9 +172,12 @@ def colliding(case: int, scheme: str) -> Run:
     end = 0.6 if case == 2 else 1.61 if full else 0.5
     times = "0.15,0.2,0.4,0.6" if case == 2 else "0.1,0.2,0.3,0.4,0.5,0.8,1.25,1.61"
     area = 0.152 * 0.12 if case == 2 else (0.156 + 0.054) * 0.08
-    return Run(f"colliding{case}_{scheme}", "scene",
-               ("colliding", "--case", str(case), "--end", _number(end), "--times", times, *s.options),
-               collapse_cost(area, 0.155, 0.002, end, s.steps))
+    return Run(
+        f"colliding{case}_{scheme}",
+        "scene",
+        ("colliding", "--case", str(case), "--end", _number(end), "--times", times, *s.options),
+        collapse_cost(area, 0.155, 0.002, end, s.steps),
+    )
 
 
 def scaling(aspect: float, sides: int) -> Run:
@@ -147,11 +186,17 @@ def scaling(aspect: float, sides: int) -> Run:
     reference = 0.04
     height = aspect * reference
     end = 6 * math.sqrt(height / GRAVITY)
-    scene = ("both_side", "--length", "0.08", "--resolution", str(2 * per_reference)) if sides == 2 else \
-        ("one_side", "--length", "0.04", "--resolution", str(per_reference), "--diameter", "0.002")
-    return Run(f"scaling{sides}_a{aspect:g}", "scene",
-               (*scene, "--aspect", _number(aspect), "--lift-time", "0", "--end", f"{end:.4f}"),
-               collapse_cost(sides * reference * height, height, reference / per_reference, end))
+    scene = (
+        ("both_side", "--length", "0.08", "--resolution", str(2 * per_reference))
+        if sides == 2
+        else ("one_side", "--length", "0.04", "--resolution", str(per_reference), "--diameter", "0.002")
+    )
+    return Run(
+        f"scaling{sides}_a{aspect:g}",
+        "scene",
+        (*scene, "--aspect", _number(aspect), "--lift-time", "0", "--end", f"{end:.4f}"),
+        collapse_cost(sides * reference * height, height, reference / per_reference, end),
+    )
 
 
 def contact_dynamics(aspect: float) -> Run:
@@ -164,12 +209,38 @@ def contact_dynamics(aspect: float) -> Run:
     unit = math.sqrt(height / GRAVITY)
     times = ",".join(f"{k * unit:.6f}" for k in data["times"])
     end = max(data["times"]) * unit
-    return Run(f"contact_dynamics_a{aspect:g}", "scene",
-               ("both_side", "--length", f"{length:.6f}", "--aspect", _number(aspect), "--resolution", str(resolution),
-                "--diameter", _number(data["diameter"]), "--lift-time", "0", "--mu-s", _number(ref.LAGREE_MU_S), "--mu-2",
-                _number(ref.LAGREE_MU_2), "--i0", _number(ref.LAGREE_I0), "--volume-fraction", "1", "--end",
-                f"{end:.6f}", "--interval", f"{unit / 10:.6f}", "--times", times),
-               collapse_cost(length * height, height, height / CONTACT_SPACINGS, end))
+    return Run(
+        f"contact_dynamics_a{aspect:g}",
+        "scene",
+        (
+            "both_side",
+            "--length",
+            f"{length:.6f}",
+            "--aspect",
+            _number(aspect),
+            "--resolution",
+            str(resolution),
+            "--diameter",
+            _number(data["diameter"]),
+            "--lift-time",
+            "0",
+            "--mu-s",
+            _number(ref.LAGREE_MU_S),
+            "--mu-2",
+            _number(ref.LAGREE_MU_2),
+            "--i0",
+            _number(ref.LAGREE_I0),
+            "--volume-fraction",
+            "1",
+            "--end",
+            f"{end:.6f}",
+            "--interval",
+            f"{unit / 10:.6f}",
+            "--times",
+            times,
+        ),
+        collapse_cost(length * height, height, height / CONTACT_SPACINGS, end),
+    )
 
 
 def couette(case: int) -> Run:
@@ -179,8 +250,12 @@ def couette(case: int) -> Run:
 def exact(case: str, resolution: int) -> Run:
     """Layers of a fixed number of columns: particles and steps both grow with the resolution."""
     resolutions, cost = EXACT_CASES[case]
-    return Run(f"exact_{case}_{resolution}", "exact", (case, "--resolution", str(resolution)),
-               cost * (resolution / resolutions[0]) ** 2)
+    return Run(
+        f"exact_{case}_{resolution}",
+        "exact",
+        (case, "--resolution", str(resolution)),
+        cost * (resolution / resolutions[0]) ** 2,
+    )
 
 
 def resolution_end(scheme: str, resolution: int) -> float:
@@ -194,8 +269,15 @@ def resolution_run(scheme: str, resolution: int) -> Run:
     return both_side(scheme, resolution=resolution, end=resolution_end(scheme, resolution))
 
 
-RESOLUTION_STUDY = {"default": RESOLUTIONS, "raised": RESOLUTIONS, "walls": RESOLUTIONS, "nonlocal_2": RESOLUTIONS,
-                    "nonlocal_1": (16, 32, 64), "local_1": (32,), "local_2": (32,)}
+RESOLUTION_STUDY = {
+    "default": RESOLUTIONS,
+    "raised": RESOLUTIONS,
+    "walls": RESOLUTIONS,
+    "nonlocal_2": RESOLUTIONS,
+    "nonlocal_1": (16, 32, 64),
+    "local_1": (32,),
+    "local_2": (32,),
+}
 HORIZON_STUDY = {"default": HORIZONS, "nonlocal_2": HORIZONS}
 HORIZON_LENGTH_STUDY = {"default": (16, 32, 64), "nonlocal_2": (16, 32, 64)}
 MAIN_SCENES = {  # of which schemes there are runs
@@ -242,7 +324,9 @@ def studies() -> dict[str, list[Run]]:
     return {
         "main": [main_run(scene, scheme) for scene, schemes in MAIN_SCENES.items() for scheme in schemes],
         "horizon": [horizon_run(scheme, h) for scheme, all_h in HORIZON_STUDY.items() for h in all_h],
-        "horizon_length": [horizon_length_run(scheme, r) for scheme, all_r in HORIZON_LENGTH_STUDY.items() for r in all_r],
+        "horizon_length": [
+            horizon_length_run(scheme, r) for scheme, all_r in HORIZON_LENGTH_STUDY.items() for r in all_r
+        ],
         "resolution": [resolution_run(scheme, r) for scheme, all_r in RESOLUTION_STUDY.items() for r in all_r],
         "lift": [lift_run(t) for t in LIFT_TIMES],
         "codes": [code_run(r) for r in CODE_RESOLUTIONS],

@@ -21,30 +21,41 @@ def factor_two(results: Collection) -> str:
     over = [f"{value} at L/dl = {r}" for r, value in ref.PAPER_RESOLUTION.items() if value > bound]
     lines = [
         f"Equation 3.12 of the paper has 2 η D where section 2.1 has τ = η γ: in simple shear that is twice μ(I) p. "
-        f"Without any computation: with μ_s = tan 21° and slopes nowhere above asin μ_s, an arrested two-sided deposit of "
-        f"this area cannot stand higher than y/L = {bound:.3f}. The paper prints {' and '.join(over)}."]
+        f"Without any computation: with μ_s = tan 21° and slopes nowhere above asin μ_s, an "
+        "arrested two-sided deposit of "
+        f"this area cannot stand higher than y/L = {bound:.3f}. The paper prints {' and '.join(over)}."
+    ]
     if not printed or not single:
         lines.append("The schemes of the paper have not been run: the rest of the verdict is open.")
         return "\n\n".join(lines)
     two, one = peak(printed), peak(single)
-    lines.append(f"At L/dl = 32 and 0.42 s the paper prints {ref.PAPER_PEAK[4.0]:.3f}. Our implementation of its scheme gives "
-                 f"{two:.3f} with the factor 2 ({percent(two, ref.PAPER_PEAK[4.0])}) and {one:.3f} with the factor 1 "
-                 f"({percent(one, ref.PAPER_PEAK[4.0])}).")
+    lines.append(
+        f"At L/dl = 32 and 0.42 s the paper prints {ref.PAPER_PEAK[4.0]:.3f}. Our implementation of its scheme gives "
+        f"{two:.3f} with the factor 2 ({percent(two, ref.PAPER_PEAK[4.0])}) and {one:.3f} with the factor 1 "
+        f"({percent(one, ref.PAPER_PEAK[4.0])})."
+    )
     near_two = abs(two / ref.PAPER_PEAK[4.0] - 1) <= CLOSE
     near_one = abs(one / ref.PAPER_PEAK[4.0] - 1) <= CLOSE
     if near_two and not near_one:
-        lines.append(f"**The factor 2 reproduces the printed number within {100 * CLOSE:g} %, the factor 1 does not: the "
-                     "printed figures have the doubled friction in them.**")
+        lines.append(
+            f"**The factor 2 reproduces the printed number within {100 * CLOSE:g} %, the factor 1 does not: the "
+            "printed figures have the doubled friction in them.**"
+        )
     elif near_one and not near_two:
-        lines.append("**The factor 1 reproduces the printed number and the factor 2 does not: our numbers speak against a "
-                     "factor 2 in the paper's figures.**")
+        lines.append(
+            "**The factor 1 reproduces the printed number and the factor 2 does not: our numbers speak against a "
+            "factor 2 in the paper's figures.**"
+        )
     elif abs(two - ref.PAPER_PEAK[4.0]) < abs(one - ref.PAPER_PEAK[4.0]):
         lines.append("**Neither reproduces the printed number closely; the factor 2 comes nearer.**")
     else:
         lines.append("**Neither reproduces the printed number closely; the factor 1 comes nearer.**")
     finer = [(r, results(runs.resolution_run("nonlocal_2", r))) for r in (64, 128)]
-    finer_text = [f"{peak(result):.3f} against the printed {ref.PAPER_RESOLUTION[r]:.3f} at L/dl = {r}"
-                  for r, result in finer if result]
+    finer_text = [
+        f"{peak(result):.3f} against the printed {ref.PAPER_RESOLUTION[r]:.3f} at L/dl = {r}"
+        for r, result in finer
+        if result
+    ]
     if finer_text:
         lines.append("On refinement, as printed: " + ", ".join(finer_text) + ".")
     low, high = ref.CODES_PEAK_BAND
@@ -53,8 +64,10 @@ def factor_two(results: Collection) -> str:
     if default:
         value = peak(default)
         inside = low - 0.01 <= value <= high + 0.01
-        codes += (f" Our default scheme, gates gone at once as in theirs, gives {value:.3f}: "
-                  f"{'in their band (to 0.01)' if inside else 'outside their band'}.")
+        codes += (
+            f" Our default scheme, gates gone at once as in theirs, gives {value:.3f}: "
+            f"{'in their band (to 0.01)' if inside else 'outside their band'}."
+        )
     lines.append(codes)
     return "\n\n".join(lines)
 
@@ -66,44 +79,68 @@ def non_locality(results: Collection) -> str:
         if not result:
             return "The schemes of the paper have not been run: open."
         peaks[key] = (peak(result), peak(result, 3.0))
-    lines = ["The paper sets its non-local scheme against its local one and finds the arrested state in the first only. With the "
-             "friction the same in both, a = 1.25, L/dl = 32:"]
+    lines = [
+        "The paper sets its non-local scheme against its local one and finds the arrested state in "
+        "the first only. With the "
+        "friction the same in both, a = 1.25, L/dl = 32:"
+    ]
     for factor in (1, 2):
         (n_early, n_late), (l_early, l_late) = peaks[f"nonlocal_{factor}"], peaks[f"local_{factor}"]
-        lines.append(f"- factor {factor}: peak y/L at 0.42 s {n_early:.3f} non-local and {l_early:.3f} local "
-                     f"({percent(n_early, l_early)}); from there to 3 s it sinks by "
-                     f"{100 * (1 - n_late / n_early):.1f} % and {100 * (1 - l_late / l_early):.1f} %")
+        lines.append(
+            f"- factor {factor}: peak y/L at 0.42 s {n_early:.3f} non-local and {l_early:.3f} local "
+            f"({percent(n_early, l_early)}); from there to 3 s it sinks by "
+            f"{100 * (1 - n_late / n_early):.1f} % and {100 * (1 - l_late / l_early):.1f} %"
+        )
     by_operator = max(abs(peaks[f"nonlocal_{f}"][0] - peaks[f"local_{f}"][0]) for f in (1, 2))
     by_factor = max(abs(peaks[f"{kind}_2"][0] - peaks[f"{kind}_1"][0]) for kind in ("nonlocal", "local"))
     text = "\n".join([lines[0], "", *lines[1:]])
     if by_operator < 0.5 * by_factor:
-        text += (f"\n\n**The factor of the friction changes the peak by up to {by_factor:.3f} L, the non-local operators by no "
-                 f"more than {by_operator:.3f} L: most of the height of the paper's deposit is friction.**")
+        text += (
+            f"\n\n**The factor of the friction changes the peak by up to {by_factor:.3f} L, the "
+            "non-local operators by no "
+            f"more than {by_operator:.3f} L: most of the height of the paper's deposit is friction.**"
+        )
     elif by_operator > 2 * by_factor:
-        text += (f"\n\n**The non-local operators change the peak by up to {by_operator:.3f} L, the factor of the friction by "
-                 f"no more than {by_factor:.3f} L: the height of the paper's deposit is mostly theirs.**")
+        text += (
+            f"\n\n**The non-local operators change the peak by up to {by_operator:.3f} L, the factor of "
+            "the friction by "
+            f"no more than {by_factor:.3f} L: the height of the paper's deposit is mostly theirs.**"
+        )
     else:
-        text += (f"\n\n**Both matter: the factor of the friction changes the peak by up to {by_factor:.3f} L, the non-local "
-                 f"operators by up to {by_operator:.3f} L.**")
-    angles = {key: results(runs.main_run("colliding_2", key)) for key in ("nonlocal_1", "nonlocal_2", "local_1", "local_2")}
+        text += (
+            f"\n\n**Both matter: the factor of the friction changes the peak by up to {by_factor:.3f} L, the non-local "
+            f"operators by up to {by_operator:.3f} L.**"
+        )
+    angles = {
+        key: results(runs.main_run("colliding_2", key)) for key in ("nonlocal_1", "nonlocal_2", "local_1", "local_2")
+    }
     if all(angles.values()):
         values = {key: abs(result.interface_angle(0.6, *FIT)) for key, result in angles.items()}
-        text += ("\n\nThe interface of case II at 0.60 s: " +
-                 ", ".join(f"{runs.SCHEMES[key].label} {value:.1f}°" for key, value in values.items()) +
-                 f"; the paper prints {ref.PAPER_INTERFACE_ANGLE['nonlocal_2']}° and {ref.PAPER_INTERFACE_ANGLE['local_2']}°, "
-                 f"the experiment is at {ref.EXPERIMENT_INTERFACE_ANGLE}°.")
+        text += (
+            "\n\nThe interface of case II at 0.60 s: "
+            + ", ".join(f"{runs.SCHEMES[key].label} {value:.1f}°" for key, value in values.items())
+            + f"; the paper prints {ref.PAPER_INTERFACE_ANGLE['nonlocal_2']}° and "
+            f"{ref.PAPER_INTERFACE_ANGLE['local_2']}°, "
+            f"the experiment is at {ref.EXPERIMENT_INTERFACE_ANGLE}°."
+        )
     speeds = [results(runs.main_run("both_5", key)) for key in ("local_2", "nonlocal_2", "default")]
     if all(speeds):
         local, nonlocal_, default = (section_speed(result, 1.0, 0.02) for result in speeds)
-        text += (f"\n\nWhat is left of the motion at 1 s (a = 5, y/L = 0.25): the local scheme has {local / nonlocal_:.2g} times "
-                 f"the speed of the non-local one (the paper: almost {ref.PAPER_LOCAL_SPEED_RATIO:g} times). The default scheme, "
-                 f"whose material has a true yield, has {significant(default / nonlocal_, 2)} times it.")
+        text += (
+            f"\n\nWhat is left of the motion at 1 s (a = 5, y/L = 0.25): the local scheme has "
+            f"{local / nonlocal_:.2g} times "
+            f"the speed of the non-local one (the paper: almost {ref.PAPER_LOCAL_SPEED_RATIO:g} times). "
+            "The default scheme, "
+            f"whose material has a true yield, has {significant(default / nonlocal_, 2)} times it."
+        )
     found = [results(runs.horizon_run("default", h)) for h in runs.HORIZONS]
     if all(found):
         spread = [peak(result) for result in found]
-        text += (f"\n\nIn the default scheme the horizon is a choice of the numerics: between {runs.HORIZONS[0]:g} and "
-                 f"{runs.HORIZONS[-1]:g} dl the peak lies between {min(spread):.3f} and {max(spread):.3f}, and none creeps "
-                 f"({max(100 * abs(peak(r, 3.0) / peak(r) - 1) for r in found):.2f} % from 0.42 to 3 s at most).")
+        text += (
+            f"\n\nIn the default scheme the horizon is a choice of the numerics: between {runs.HORIZONS[0]:g} and "
+            f"{runs.HORIZONS[-1]:g} dl the peak lies between {min(spread):.3f} and {max(spread):.3f}, and none creeps "
+            f"({max(100 * abs(peak(r, 3.0) / peak(r) - 1) for r in found):.2f} % from 0.42 to 3 s at most)."
+        )
     return text
 
 
@@ -114,15 +151,22 @@ def disagreements(results: Collection) -> list[str]:
     raised = results(runs.resolution_run("raised", 32))
     walls = results(runs.resolution_run("walls", 32))
     if default and abs(peak(default) / ref.EXPERIMENT_PEAK - 1) > CLOSE:
-        text = (f"Default, a = 1.25: the peak at 0.42 s is {peak(default):.3f}, {percent(peak(default), ref.EXPERIMENT_PEAK)} off "
-                f"the experiment. The experiment ran between side walls, the default has none")
+        text = (
+            f"Default, a = 1.25: the peak at 0.42 s is {peak(default):.3f}, "
+            f"{percent(peak(default), ref.EXPERIMENT_PEAK)} off "
+            f"the experiment. The experiment ran between side walls, the default has none"
+        )
         others = []
         if raised:
-            others.append(f"the friction that Ionescu et al. (2015) take in their place gives {peak(raised):.3f} "
-                          f"({percent(peak(raised), ref.EXPERIMENT_PEAK)})")
+            others.append(
+                f"the friction that Ionescu et al. (2015) take in their place gives {peak(raised):.3f} "
+                f"({percent(peak(raised), ref.EXPERIMENT_PEAK)})"
+            )
         if walls:
-            others.append(f"width-averaged friction of walls {runs.CHANNEL_WIDTH:g} m apart with a coefficient of "
-                          f"{runs.CHANNEL_FRICTION:g} gives {peak(walls):.3f} ({percent(peak(walls), ref.EXPERIMENT_PEAK)})")
+            others.append(
+                f"width-averaged friction of walls {runs.CHANNEL_WIDTH:g} m apart with a coefficient of "
+                f"{runs.CHANNEL_FRICTION:g} gives {peak(walls):.3f} ({percent(peak(walls), ref.EXPERIMENT_PEAK)})"
+            )
         found.append(text + ("; " + ", ".join(others) if others else "") + ".")
     grid = [(r, results(runs.resolution_run("default", r))) for r in runs.RESOLUTIONS]
     grid = [(r, peak(result)) for r, result in grid if result]
@@ -130,21 +174,30 @@ def disagreements(results: Collection) -> list[str]:
         (_, p1), (_, p2) = grid[-2:]
         steps = [abs(b - a) for (_, a), (_, b) in zip(grid, grid[1:])]
         if any(later > earlier for earlier, later in zip(steps, steps[1:])) or steps[-1] > 0.01:
-            found.append("Default, refinement: peak y/L " + ", ".join(f"{value:.3f} at L/dl = {r}" for r, value in grid) +
-                         f": the last step is {percent(p2, p1)}, and the steps do not shrink as they would for a converged peak.")
+            found.append(
+                "Default, refinement: peak y/L "
+                + ", ".join(f"{value:.3f} at L/dl = {r}" for r, value in grid)
+                + f": the last step is {percent(p2, p1)}, and the steps do not shrink as they would for a "
+                "converged peak."
+            )
     wall = results(runs.main_run("one_side", "default"))
     if wall and abs(wall.summary["axis_height"] / ref.EXPERIMENT_WALL_HEIGHT - 1) > CLOSE:
         value = wall.summary["axis_height"]
         raised_wall = results(runs.main_run("one_side", "raised"))
         other = f"; with the raised friction {raised_wall.summary['axis_height']:.4f} m" if raised_wall else ""
-        found.append(f"Default, one side: the height beside the wall sinks to {value:.4f} m by 1.02 s "
-                     f"({percent(value, ref.EXPERIMENT_WALL_HEIGHT)}); in the experiment it hardly moves{other}.")
+        found.append(
+            f"Default, one side: the height beside the wall sinks to {value:.4f} m by 1.02 s "
+            f"({percent(value, ref.EXPERIMENT_WALL_HEIGHT)}); in the experiment it hardly moves{other}."
+        )
     angle = results(runs.main_run("colliding_2", "default"))
     if angle:
         value = abs(angle.interface_angle(0.6, *FIT))
         if abs(value - ref.EXPERIMENT_INTERFACE_ANGLE) > 1:
-            found.append(f"Default, case II: the interface is {value:.1f}° to the vertical at 0.60 s, {ref.EXPERIMENT_INTERFACE_ANGLE}° "
-                         "in the experiment (side walls; the part of the interface that is fitted, see there).")
+            found.append(
+                f"Default, case II: the interface is {value:.1f}° to the vertical at 0.60 s, "
+                f"{ref.EXPERIMENT_INTERFACE_ANGLE}° "
+                "in the experiment (side walls; the part of the interface that is fitted, see there)."
+            )
     for a in ref.CONTACT_DYNAMICS:
         result = results(runs.contact_dynamics(a))
         if not result:
@@ -154,25 +207,48 @@ def disagreements(results: Collection) -> list[str]:
             off = [f"{row['time']:g}" for row in rows if not agrees(row, name)]
             if off:
                 worst = max(rows, key=lambda row, name=name: abs(row[name] / row[f"discs_{name}"] - 1))
-                found.append(f"Contact dynamics, a = {a:g}: the {what} is more than {100 * AGREEMENT:g} % off at t / √(H0/g) = "
-                             f"{', '.join(off)}; the worst is {percent(worst[name], worst[f'discs_{name}'], 0)} at "
-                             f"{worst['time']:g}.")
+                found.append(
+                    f"Contact dynamics, a = {a:g}: the {what} is more than {100 * AGREEMENT:g} % off at t / √(H0/g) = "
+                    f"{', '.join(off)}; the worst is {percent(worst[name], worst[f'discs_{name}'], 0)} at "
+                    f"{worst['time']:g}."
+                )
     run_outs = [(a, results(runs.scaling(a, 2))) for a in runs.ASPECTS]
-    off = [(a, r.summary["run_out"] / ref.lagree_run_out(a) - 1) for a, r in run_outs
-           if r and abs(r.summary["run_out"] / ref.lagree_run_out(a) - 1) > 0.15]
+    off = [
+        (a, r.summary["run_out"] / ref.lagree_run_out(a) - 1)
+        for a, r in run_outs
+        if r and abs(r.summary["run_out"] / ref.lagree_run_out(a) - 1) > 0.15
+    ]
     if off:
-        found.append("Scaling, two sides: the run-out is more than 15 % off Lagrée et al. (2011), who have another friction, at " +
-                     ", ".join(f"a = {a:g} ({100 * value:+.0f} %)" for a, value in off) + ".")
-    for scene, title in (("both_5", "a = 5"), ("one_side", "one side"), ("colliding_1", "case I"), ("colliding_2", "case II")):
+        found.append(
+            "Scaling, two sides: the run-out is more than 15 % off Lagrée et al. (2011), who have another friction, at "
+            + ", ".join(f"a = {a:g} ({100 * value:+.0f} %)" for a, value in off)
+            + "."
+        )
+    for scene, title in (
+        ("both_5", "a = 5"),
+        ("one_side", "one side"),
+        ("colliding_1", "case I"),
+        ("colliding_2", "case II"),
+    ):
         result = results(runs.main_run(scene, "default"))
         if result and not result.summary["at_rest"]:
-            found.append(f"Default, {title}: not yet at rest at the end, {result.summary['time']:g} s "
-                         f"(kinetic energy {significant(result.summary['kinetic_share'], 2)} of E0).")
-    worst = max((abs(r.summary["energy_error_share"]), r.name) for r in results.found.values()
-                if "energy_error_share" in r.summary and not any(s in r.name for s in ("nonlocal", "local_"))) \
-        if results.found else (0.0, "")
+            found.append(
+                f"Default, {title}: not yet at rest at the end, {result.summary['time']:g} s "
+                f"(kinetic energy {significant(result.summary['kinetic_share'], 2)} of E0)."
+            )
+    worst = (
+        max(
+            (abs(r.summary["energy_error_share"]), r.name)
+            for r in results.found.values()
+            if "energy_error_share" in r.summary and not any(s in r.name for s in ("nonlocal", "local_"))
+        )
+        if results.found
+        else (0.0, "")
+    )
     if worst[0] > 0.005:
-        found.append(f"Energy ledger of the default scheme: up to {100 * worst[0]:.2f} % of E0 are unaccounted for ({worst[1]}).")
+        found.append(
+            f"Energy ledger of the default scheme: up to {100 * worst[0]:.2f} % of E0 are unaccounted for ({worst[1]})."
+        )
     return found
 
 
@@ -181,20 +257,29 @@ def in_short(results: Collection) -> list[str]:
     lines = []
     default = results(runs.resolution_run("default", 32))
     if default:
-        lines.append(f"Default scheme, a = 1.25: peak y/L {fixed(peak(default))} at 0.42 s (experiment {ref.EXPERIMENT_PEAK}, "
-                     f"{percent(peak(default), ref.EXPERIMENT_PEAK)}), run-out {fixed(run_out_at(default, 1.0), 2)}, "
-                     f"{percent(peak(default, 3.0), peak(default), 2)} from 0.42 to 3 s, "
-                     f"{default.cpu_to(1.0):.1f} CPU s per simulated second.")
+        lines.append(
+            f"Default scheme, a = 1.25: peak y/L {fixed(peak(default))} at 0.42 s (experiment {ref.EXPERIMENT_PEAK}, "
+            f"{percent(peak(default), ref.EXPERIMENT_PEAK)}), run-out {fixed(run_out_at(default, 1.0), 2)}, "
+            f"{percent(peak(default, 3.0), peak(default), 2)} from 0.42 to 3 s, "
+            f"{default.cpu_to(1.0):.1f} CPU s per simulated second."
+        )
     raised = results(runs.resolution_run("raised", 32))
     if raised:
-        lines.append(f"With the raised friction that stands for the side walls of the channel (Ionescu et al. 2015): "
-                     f"{fixed(peak(raised))}, {percent(peak(raised), ref.EXPERIMENT_PEAK)}.")
+        lines.append(
+            f"With the raised friction that stands for the side walls of the channel (Ionescu et al. 2015): "
+            f"{fixed(peak(raised))}, {percent(peak(raised), ref.EXPERIMENT_PEAK)}."
+        )
     wall = results(runs.main_run("one_side", "default"))
     if wall:
-        lines.append(f"One side: height beside the wall {wall.summary['axis_height']:.4f} m at 1.02 s (paper "
-                     f"{ref.PAPER_WALL_HEIGHT}, experiment about {ref.EXPERIMENT_WALL_HEIGHT}), {wall.cpu:.0f} CPU s.")
+        lines.append(
+            f"One side: height beside the wall {wall.summary['axis_height']:.4f} m at 1.02 s (paper "
+            f"{ref.PAPER_WALL_HEIGHT}, experiment about {ref.EXPERIMENT_WALL_HEIGHT}), {wall.cpu:.0f} CPU s."
+        )
     angle = results(runs.main_run("colliding_2", "default"))
     if angle:
-        lines.append(f"Case II: interface {abs(angle.interface_angle(0.6, *FIT)):.1f}° to the vertical (experiment "
-                     f"{ref.EXPERIMENT_INTERFACE_ANGLE}°, paper {ref.PAPER_INTERFACE_ANGLE['nonlocal_2']}°), {angle.cpu:.0f} CPU s.")
+        lines.append(
+            f"Case II: interface {abs(angle.interface_angle(0.6, *FIT)):.1f}° to the vertical (experiment "
+            f"{ref.EXPERIMENT_INTERFACE_ANGLE}°, paper {ref.PAPER_INTERFACE_ANGLE['nonlocal_2']}°), "
+            f"{angle.cpu:.0f} CPU s."
+        )
     return lines
