@@ -48,6 +48,15 @@ def couette_profile(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return table[:, 0], table[:, 1], table[:, 2]
 
 
+def exact_error(result: Result) -> tuple[float, str]:
+    """The error of a run against an exact solution, without its sign, and what the program says it is."""
+    for name in ("error", "error_max", "error_l2"):
+        if name in result.summary:
+            line = next(line for line in result.output.splitlines() if line.split()[:1] == [name])
+            return abs(result.summary[name]), " ".join(line.split()[2:])
+    return math.nan, ""
+
+
 def interface_spread(result: Result, time: float, fits: list[tuple[float, float]]) -> tuple[float, float]:
     """Smallest and largest |angle| (degrees) over several choices of the part of the interface that is fitted."""
     angles = [abs(result.interface_angle(time, low, high)) for low, high in fits]

@@ -59,7 +59,7 @@ def profiles(
         axes.text(0.99, 0.97, f"t = {time:g} s", transform=axes.transAxes, va="top", ha="right", fontweight="bold")
         axes.set_ylabel(f"y{unit_name}")
     panels[-1, 0].set_xlabel(f"x{unit_name}")
-    legend_above(figure, panels[0, 0], 3)
+    panels[0, 0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
     return finish(figure, path)
 
 
@@ -101,7 +101,7 @@ def interface(path: Path, results: Collection) -> bool:
     times = (0.15, 0.2, 0.4, 0.6)
     if not chosen:
         return False
-    figure, panels = plt.subplots(1, len(times), figsize=(13, 4.9), sharey=True, layout="compressed")
+    figure, panels = plt.subplots(1, len(times), figsize=(11, 5.2), sharey=True, layout="compressed")
     for axes, time in zip(panels, times):
         for key, result in chosen:
             rows = result.select("interface", time)
@@ -110,12 +110,12 @@ def interface(path: Path, results: Collection) -> bool:
                 x = rows["x"].copy()
                 x[1:][np.abs(np.diff(rows["x"])) > INTERFACE_JUMP] = np.nan
                 axes.plot(x, rows["y"], color=color, linestyle=line, label=label_of(key))
-        axes.set_xlim(-0.055, 0.015)
+        axes.set_xlim(-0.035, 0.015)
         axes.set_ylim(0, 0.1)
         axes.set_aspect("equal", adjustable="box")
         axes.set_title(f"t = {time:g} s", fontsize=14)
         axes.set_xlabel("x (m)")
-        axes.set_xticks([-0.04, -0.02, 0.0])
+        axes.set_xticks([-0.02, 0.0])
     foot, height = 0.0, 0.04
     slope = np.tan(np.radians(ref.EXPERIMENT_INTERFACE_ANGLE))
     rows = chosen[0][1].select("interface", 0.6)

@@ -9,7 +9,7 @@ import numpy as np
 import references as ref
 import runs
 from drawing import MARKERS, STYLES, finish, label_of, legend_above
-from measures import contact_front, couette_profile, peak
+from measures import contact_front, couette_profile, exact_error, peak
 from results import Collection
 
 
@@ -197,11 +197,11 @@ def exact(path: Path, results: Collection) -> bool:
     drawn = False
     for color, (case, (all_r, _)) in zip(colors, runs.EXACT_CASES.items()):
         found = [(r, results(runs.exact(case, r))) for r in all_r]
-        found = [(r, result) for r, result in found if result and result.summary.get("error", 0) != 0]
+        found = [(r, result) for r, result in found if result and exact_error(result)[0] > 0]
         if not found:
             continue
         drawn = True
-        errors = [abs(result.summary["error"]) for _, result in found]
+        errors = [exact_error(result)[0] for _, result in found]
         left.plot([r for r, _ in found], errors, "o-", color=color, ms=7, label=case.replace("_", " "))
         right.plot([max(result.cpu, 1e-3) for _, result in found], errors, "o-", color=color, ms=7)
     if not drawn:
@@ -211,6 +211,8 @@ def exact(path: Path, results: Collection) -> bool:
         axes.set_xscale("log")
         axes.set_yscale("log")
     left.set_xlabel("resolution")
+    left.set_xticks([10, 20, 40, 80], ["10", "20", "40", "80"])
+    left.minorticks_off()
     left.set_ylabel("error, as the table defines it")
     right.set_xlabel("CPU s")
     legend_above(figure, left, 4)

@@ -6,7 +6,7 @@ import math
 import references as ref
 import runs
 from markdown import NONE, cpu, fixed, percent, significant, table
-from measures import contact_front, couette_profile, peak, run_out_at
+from measures import contact_front, couette_profile, exact_error, peak, run_out_at
 from results import Collection, Result
 
 AGREEMENT = 0.10  # of the reference: what counts as agreement with contact dynamics
@@ -194,19 +194,20 @@ def exact(results: Collection) -> str:
         for r in all_r:
             run = runs.exact(case, r)
             result = results(run)
-            error = abs(result.summary["error"]) if result and "error" in result.summary else None
+            error, meaning = exact_error(result) if result else (math.nan, "")
             order = None
-            if error and before and before[1] > 0:
+            if error > 0 and before and before[1] > 0:
                 order = math.log(before[1] / error) / math.log(r / before[0])
             rows.append(
                 [
                     case.replace("_", " "),
                     str(r),
                     significant(error),
+                    meaning,
                     fixed(order, 2),
                     f"{result.summary.get('particles', math.nan):.0f}" if result else NONE,
                     significant(result.cpu, 2) if result else results.absent[run.name],
                 ]
             )
-            before = (r, error) if error else None
-    return table(["case", "resolution", "error", "order", "particles", "CPU s"], rows)
+            before = (r, error) if error > 0 else None
+    return table(["case", "resolution", "error", "of", "order", "particles", "CPU s"], rows)
