@@ -20,8 +20,7 @@ template <class Value> const double *derive(const World &world, Field<double> &o
 
 // |gamma| = sqrt(D:D / 2), Jin et al. (2021) 3.3.
 double shear_rate(const Particles &p, int64_t i) {
-    const double dxy = 0.5 * (p.lxy[i] + p.lyx[i]);
-    return std::sqrt(0.5 * (p.lxx[i] * p.lxx[i] + p.lyy[i] * p.lyy[i] + 2 * dxy * dxy));
+    return shear_rate(Symmetric{p.lxx[i], 0.5 * (p.lxy[i] + p.lyx[i]), p.lyy[i]});
 }
 
 double number_density(const World &world, int64_t i) {
@@ -49,7 +48,10 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
     case GP_FIELD_DENSITY: return p.density.data();
     case GP_FIELD_SXX: return p.sxx.data();
     case GP_FIELD_SXY: return p.sxy.data();
-    case GP_FIELD_SYY: return derive(world, scratch, [&](int64_t i) { return -p.sxx[i]; });
+    case GP_FIELD_SYY:
+        if (!p.syy.empty())
+            return p.syy.data();
+        return derive(world, scratch, [&](int64_t i) { return -p.sxx[i]; });
     case GP_FIELD_SHEAR_RATE: return derive(world, scratch, [&](int64_t i) { return shear_rate(p, i); });
     case GP_FIELD_INERTIAL_NUMBER:
         return derive(world, scratch, [&](int64_t i) {
@@ -59,10 +61,19 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
                        : 0.0;
         });
     case GP_FIELD_VISCOSITY:
+        if (world.constants.scheme != Scheme::adjoint)
+            return derive(world, scratch, [&](int64_t i) {
+                return world.material_of(i).law.viscosity(shear_rate(p, i), p.pressure[i]);
+            });
         return derive(world, scratch, [&](int64_t i) {
             return equivalent_stress({p.sxx[i], p.sxy[i]}) / std::hypot(shear_rate(p, i), world.scene->config().delta);
         });
-    case GP_FIELD_NUMBER_DENSITY: return derive(world, scratch, [&](int64_t i) { return number_density(world, i); });
+    case GP_FIELD_NUMBER_DENSITY:
+        if (world.constants.scheme != Scheme::adjoint) // as the scheme found it, with the ghosts
+            return derive(world, scratch, [&](int64_t i) {
+                return p.density[i] / world.material_of(i).density * world.constants.interaction_lattice.number_density;
+            });
+        return derive(world, scratch, [&](int64_t i) { return number_density(world, i); });
     default: return nullptr;
     }
 }

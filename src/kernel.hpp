@@ -17,6 +17,7 @@ GP_INLINE double weight(double r, double inverse_radius) {
 
 struct LatticeSums {
     double number_density = 0; // N0 = sum of w ([1] 2.4)
+    double row = 0;            // the part of N0 of one's own row
     double second_moment = 0;  // k0: the full-lattice shape tensor is k0 times the unit tensor; m^2
 };
 
@@ -31,6 +32,7 @@ inline LatticeSums lattice_sums(double radius, double spacing) {
             const double x = i * spacing, y = j * spacing;
             const double w = weight(std::sqrt(x * x + y * y), 1.0 / radius);
             sums.number_density += w;
+            sums.row += j == 0 ? w : 0.0;
             sums.second_moment += w * x * x;
         }
     return sums;

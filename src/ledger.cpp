@@ -5,10 +5,26 @@
 
 namespace gp {
 
+namespace {
+
+// Per volume: integral of p d rho / rho from rho0 on, and s:s / 4G.
+double elastic_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
+    const double compression = p.density[i] / m.density - 1;
+    const double volumetric = compression > 0 ? m.bulk_modulus * (compression - std::log1p(compression)) : 0.0;
+    return volumetric + (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+}
+
+// A viscous stress stores nothing.
+double compression_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
+    return state_energy(p.density[i] / m.density, m.bulk_modulus);
+}
+
+} // namespace
+
 Energies measure_energies(const World &world) {
     const Particles &p = world.particles;
     const Vector &g = world.constants.gravity;
-    const double c2 = world.constants.sound_speed * world.constants.sound_speed;
+    const auto elastic = world.constants.scheme == Scheme::adjoint ? elastic_energy : compression_energy;
     Energies e;
     e.potential = world.ledger.wound;
     for (int64_t i = 0; i < p.count; ++i) {
@@ -16,11 +32,7 @@ Energies measure_energies(const World &world) {
         const double mass = m.density * p.volume;
         e.kinetic += 0.5 * mass * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
         e.potential += mass * (-g.x() * p.x[i] - g.y() * p.y[i] - g.norm() * world.ledger.reference_height);
-        // Integral of p d rho / rho from rho0 on, and s:s / 4G.
-        const double compression = p.density[i] / m.density - 1;
-        if (compression > 0)
-            e.elastic += p.volume * m.density * c2 * (compression - std::log1p(compression));
-        e.elastic += p.volume * (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+        e.elastic += p.volume * elastic(p, m, i);
     }
     return e;
 }

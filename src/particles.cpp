@@ -4,18 +4,22 @@
 
 namespace gp {
 
-void Particles::allocate(int64_t n, bool penalty, bool diffusion) {
+void Particles::allocate(int64_t n, const Optional &use) {
     count = n;
     const auto size = static_cast<std::size_t>(n);
     id.resize(size);
     column.resize(size);
-    for (Field<double> *field :
-         {&x,   &y,   &vx,  &vy,  &density, &pressure, &sxx, &sxy, &lxx, &lxy,    &lyx,    &lyy,
-          &gxx, &gxy, &gyy, &cxx, &cxy,     &cyx,      &cyy, &ax,  &ay,  &push_x, &push_y, &scratch_double_})
+    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy, &cxx, &cxy,
+                                 &ax, &ay, &push_x, &push_y, &scratch_double_})
         field->resize(size);
-    if (penalty)
+    if (use.shape)
+        for (Field<double> *field : {&gxx, &gxy, &gyy, &cyx, &cyy})
+            field->resize(size);
+    if (use.syy)
+        syy.resize(size);
+    if (use.stressed)
         stressed.resize(size);
-    if (diffusion)
+    if (use.flowing)
         flowing.resize(size);
     scratch_int64_.resize(size);
     scratch_int32_.resize(size);
@@ -33,8 +37,9 @@ void Particles::make_room(int64_t images) {
     grow(column);
     grow(scratch_int32_);
     // The gradient and its like are not read of neighbours, but swap their memory with fields that are.
-    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy, &cxx, &cxy,
-                                 &cyx, &cyy, &stressed, &flowing, &scratch_double_})
+    for (Field<double> *field :
+         {&x,   &y,   &vx,  &vy,  &density, &pressure, &sxx, &sxy,      &lxx,     &lxy,
+          &lyx, &lyy, &cxx, &cxy, &cyx,     &cyy,      &syy, &stressed, &flowing, &scratch_double_})
         grow(*field);
 }
 
@@ -51,7 +56,7 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
     gather(id, scratch_int64_);
     gather(column, scratch_int32_);
     // The gradient is made anew in each step, but readers may ask for it between a reorder and the next one.
-    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy})
+    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &syy, &lxx, &lxy, &lyx, &lyy})
         gather(*field, scratch_double_);
 }
 

@@ -35,6 +35,7 @@ struct Particles {
     Field<double> density;  // kg/m3
     Field<double> pressure; // Pa
     Field<double> sxx, sxy; // Pa, deviatoric stress
+    Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
 
     // Made anew in each step.
     Field<double> lxx, lxy, lyx, lyy; // 1/s, velocity gradient L_ab = du_a/dr_b
@@ -45,8 +46,14 @@ struct Particles {
     Field<double> ax, ay;             // m/s2, by the forces
     Field<double> push_x, push_y;     // m/s, by collisions and contacts with plates after that
 
+    // Fields that only some scenes need.
+    struct Optional {
+        bool stressed, flowing; // penalty, density diffusion
+        bool shape;             // inverse shape tensor and the second row of sigma K^-1
+        bool syy;
+    };
     // Gives every field in use its size.
-    void allocate(int64_t n, bool penalty, bool diffusion);
+    void allocate(int64_t n, const Optional &use);
 
     // Makes room for images of particles behind the real ones (periodic.hpp) in every field that neighbours read.
     void make_room(int64_t images);

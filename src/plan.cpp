@@ -1,6 +1,7 @@
 #include "plan.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "stages/stages.hpp"
 
@@ -8,6 +9,7 @@ namespace gp {
 
 Traits traits_of(const Scene &scene, const Constants &constants) {
     Traits t;
+    t.scheme = constants.scheme;
     t.particles = scene.particle_count() > 0;
     t.periodic = static_cast<bool>(scene.period());
     t.plates = !scene.plates().empty();
@@ -35,10 +37,8 @@ bool plates_move(const World &world) {
     });
 }
 
-} // namespace
-
-// The time step, in order: reading this table is reading the method.
-std::vector<PlannedStage> make_stages(const Traits &t) {
+// The time step of the default scheme, in order: reading this table is reading the method.
+std::vector<PlannedStage> default_stages(const Traits &t) {
     const char *no_particles = "the scene has no particles";
     const char *no_plates = "the scene has no plates";
     const char *none_near = "no plate is within reach of material";
@@ -91,6 +91,37 @@ std::vector<PlannedStage> make_stages(const Traits &t) {
     // clang-format on
 }
 
+} // namespace
+
+std::vector<PlannedStage> make_stages(const Traits &t) {
+    struct Choice {
+        Scheme scheme;
+        const char *elsewhere;
+        std::vector<PlannedStage> stages;
+    };
+    const std::vector<PlannedStage> first = default_stages(t);
+    const Choice choices[] = {
+        {Scheme::adjoint, "a stage of the default scheme", first},
+        {Scheme::paper, "a stage of the paper's schemes (GP_PRESET_PAPER)", paper_stages(t, first)},
+        {Scheme::paper_local, "a stage of the paper's local model (GP_PRESET_PAPER_LOCAL)",
+         paper_local_stages(t, first)}};
+    std::vector<PlannedStage> stages;
+    for (const Choice &choice : choices)
+        if (choice.scheme == t.scheme)
+            stages = choice.stages;
+    // What only the other schemes have is named as left out.
+    for (const Choice &choice : choices)
+        for (PlannedStage stage : choice.stages) {
+            const auto same_name = [&](const PlannedStage &other) { return !std::strcmp(other.name, stage.name); };
+            if (std::any_of(stages.begin(), stages.end(), same_name))
+                continue;
+            stage.needed = false;
+            stage.why_not = choice.elsewhere;
+            stages.push_back(stage);
+        }
+    return stages;
+}
+
 namespace {
 
 template <class T> int64_t bytes_of(const T &field) {
@@ -139,7 +170,18 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("pressure", bytes_of(p.pressure));
     common("deviatoric_stress", bytes_of_all(p.sxx, p.sxy));
     common("velocity_gradient", bytes_of_all(p.lxx, p.lxy, p.lyx, p.lyy));
-    common("inverse_shape_tensor", bytes_of_all(p.gxx, p.gxy, p.gyy));
+    const auto optional = [&](const char *name, bool needed, const char *why, const char *why_not, int64_t bytes) {
+        entries.push_back(field_entry(name, t.particles && needed,
+                                      !t.particles ? always
+                                      : needed     ? why
+                                                   : why_not,
+                                      bytes));
+    };
+    const bool force_states = t.scheme != Scheme::paper_local, viscous = t.scheme != Scheme::adjoint;
+    optional("viscous_stress_yy", viscous, "the viscous stress has a trace", "the deviatoric stress has no trace",
+             bytes_of(p.syy));
+    optional("inverse_shape_tensor", force_states, "force states need it", "the local model has no force states",
+             bytes_of_all(p.gxx, p.gxy, p.gyy));
     common("stress_over_shape", bytes_of_all(p.cxx, p.cxy, p.cyx, p.cyy));
     common("acceleration", bytes_of_all(p.ax, p.ay));
     common("push", bytes_of_all(p.push_x, p.push_y));

@@ -10,6 +10,7 @@ namespace gp {
 
 // The scene's choices.
 struct Traits {
+    Scheme scheme;
     bool particles, periodic, plates, coulomb_plates, channel, side_walls, penalty, collisions, diffusion;
 };
 
@@ -28,6 +29,10 @@ struct PlannedStage {
 };
 
 std::vector<PlannedStage> make_stages(const Traits &traits);
+
+// The list of one of the paper's schemes. What it shares with the default scheme it takes from that one's list.
+std::vector<PlannedStage> paper_stages(const Traits &traits, const std::vector<PlannedStage> &default_stages);
+std::vector<PlannedStage> paper_local_stages(const Traits &traits, const std::vector<PlannedStage> &default_stages);
 
 // Entries for gp_get_plan: stages, then fields and tables.
 std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages, const Traits &traits,

@@ -57,20 +57,43 @@ void check_config(const gp_config &c) {
     require(c.jitter >= 0 && c.jitter < 0.5, "gp_config.jitter", c.jitter, "a number from 0 to below 0.5");
     require_choice("gp_config.preset", c.preset, 3);
 
-    if (c.preset != GP_PRESET_DEFAULT)
-        unsupported("gp_config.preset", c.preset == GP_PRESET_PAPER ? "GP_PRESET_PAPER" : "GP_PRESET_PAPER_LOCAL");
-    if (c.nonlocal == 0)
-        unsupported("gp_config.nonlocal", "the local model");
-    if (c.stress != GP_STRESS_ELASTIC)
-        unsupported("gp_config.stress",
-                    c.stress == GP_STRESS_REGULARIZED ? "GP_STRESS_REGULARIZED" : "GP_STRESS_IMPLICIT");
-    if (c.density != GP_DENSITY_CONTINUITY)
-        unsupported("gp_config.density", "GP_DENSITY_NUMBER");
+    if (scheme_of(c) != Scheme::adjoint) {
+        const char *none = "0: the schemes with GP_DENSITY_NUMBER have none";
+        require(c.zero_energy_penalty == 0, "gp_config.zero_energy_penalty", c.zero_energy_penalty, none);
+        require(c.density_diffusion == 0, "gp_config.density_diffusion", c.density_diffusion, none);
+        require(c.bulk_viscosity == 0, "gp_config.bulk_viscosity", c.bulk_viscosity, none);
+    }
 #ifndef GP_WITH_OPENMP
     if (c.threads > 1)
         throw make_error(GP_E_UNSUPPORTED, "gp_config.threads = %d: this build has no OpenMP", c.threads);
 #endif
 }
+
+} // namespace
+
+Scheme scheme_of(const gp_config &c) {
+    const bool numbered = c.stress == GP_STRESS_REGULARIZED && c.density == GP_DENSITY_NUMBER;
+    if (c.nonlocal == 1 && c.stress == GP_STRESS_ELASTIC && c.density == GP_DENSITY_CONTINUITY)
+        return Scheme::adjoint;
+    if (numbered)
+        return c.nonlocal == 1 ? Scheme::paper : Scheme::paper_local;
+    // The choice to name is the one that departs from the preset.
+    const gp_config own = default_config(c.preset);
+    const bool stress = c.stress != own.stress || c.stress == GP_STRESS_IMPLICIT, density = c.density != own.density;
+    throw make_error(GP_E_UNSUPPORTED,
+                     "gp_config.%s = %d: not with stress = %d, density = %d, nonlocal = %d; possible are "
+                     "GP_STRESS_ELASTIC with GP_DENSITY_CONTINUITY and nonlocal = 1, or GP_STRESS_REGULARIZED with "
+                     "GP_DENSITY_NUMBER and nonlocal = 0 or 1",
+                     stress    ? "stress"
+                     : density ? "density"
+                               : "nonlocal",
+                     stress    ? c.stress
+                     : density ? c.density
+                               : c.nonlocal,
+                     c.stress, c.density, c.nonlocal);
+}
+
+namespace {
 
 // Positions beyond this many spacings from the origin no longer resolve the spacing well (to 2e-4 of it).
 constexpr double farthest = 1e12; // dl

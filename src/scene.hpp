@@ -9,9 +9,19 @@
 #include "geometry.hpp"
 #include "granperi/gp.h"
 #include "kernel.hpp"
+#include "material/number_density_state.hpp"
+#include "material/regularized.hpp"
 #include "material/return_map.hpp"
 
 namespace gp {
+
+// The schemes that there are: stage lists over the same fields (plan.cpp, plan_paper.cpp).
+enum class Scheme {
+    adjoint,    // the default: continuity, return map, adjoint operators
+    paper,      // Jin et al. (2021): number density, regularised law, force states
+    paper_local // its local model: the same by MPS operators
+};
+Scheme scheme_of(const gp_config &config); // throws for a combination of choices that is none of them
 
 gp_config default_config(int32_t preset); // throws for an unknown preset
 gp_material default_material();
@@ -54,24 +64,28 @@ struct MaterialConstants {
     double grain_density, grain_diameter;
     double bulk_modulus; // rho0 c0^2, Pa
     ReturnMap map;
+    Regularized law;
 };
 
 // What follows from the scene once it is complete.
 struct Constants {
+    Scheme scheme;
     double spacing, volume;
     Vector gravity;
-    Period period;                 // in x; empty where the scene is not periodic
-    double horizon;                // m
-    double interaction_radius;     // m
-    LatticeSums lattice;           // for the horizon
-    double sound_speed;            // c0, m/s
-    bool sound_speed_is_arbitrary; // nothing in the scene sets a speed
-    double wave_speed;             // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), m/s
-    double fall_height;            // m, that the sound speed is based on
-    double time_scale;             // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
-    double plate_mass;             // kg/m2, of a loaded plate that has none of its own
-    double plate_step;             // s, largest step that is stable for the lightest loaded plate
-    double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
+    Period period;                   // in x; empty where the scene is not periodic
+    double horizon;                  // m
+    double interaction_radius;       // m
+    double reach;                    // m, of the neighbour and ghost lists: the largest radius that the scheme uses
+    LatticeSums lattice;             // for the horizon
+    LatticeSums interaction_lattice; // for the interaction radius
+    double sound_speed;              // c0, m/s
+    bool sound_speed_is_arbitrary;   // nothing in the scene sets a speed
+    double wave_speed;               // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), c0 without G; m/s
+    double fall_height;              // m, that the sound speed is based on
+    double time_scale;               // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
+    double plate_mass;               // kg/m2, of a loaded plate that has none of its own
+    double plate_step;               // s, largest step that is stable for the lightest loaded plate
+    double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
 };

@@ -108,6 +108,11 @@ Constants Scene::constants() const {
     c.horizon = config_.horizon_length > 0 ? config_.horizon_length : config_.horizon * c.spacing;
     c.interaction_radius = config_.interaction_radius * c.spacing;
     c.lattice = lattice_sums(c.horizon, c.spacing);
+    c.scheme = scheme_of(config_);
+    c.interaction_lattice = lattice_sums(c.interaction_radius, c.spacing);
+    c.reach = c.scheme == Scheme::adjoint       ? c.horizon
+              : c.scheme == Scheme::paper_local ? c.interaction_radius
+                                                : std::max(c.horizon, c.interaction_radius);
 
     double lightest = INFINITY, heaviest = 0; // kg/m3, of the materials in use
     for (const Body &body : bodies_) {
@@ -127,7 +132,7 @@ Constants Scene::constants() const {
     const double fastest = std::sqrt(2 * (g * c.fall_height + load_height) + span * span);
     c.sound_speed_is_arbitrary = config_.sound_speed == 0 && fastest == 0;
     c.sound_speed = config_.sound_speed > 0 ? config_.sound_speed : (fastest > 0 ? sound_to_flow_speed * fastest : 1.0);
-    c.wave_speed = c.sound_speed * std::sqrt(1 + shear_to_bulk);
+    c.wave_speed = c.scheme == Scheme::adjoint ? c.sound_speed * std::sqrt(1 + shear_to_bulk) : c.sound_speed;
     c.time_scale = g > 0 && c.fall_height > 0 ? std::sqrt(c.fall_height / g) : 100 * c.spacing / c.sound_speed;
 
     for (const gp_material &m : materials_) {
@@ -140,6 +145,7 @@ Constants Scene::constants() const {
         k.map.mu_2 = config_.friction_factor * m.mu_2;
         k.map.rate_factor = m.i0 / (m.grain_diameter * std::sqrt(m.grain_density));
         k.map.shear_modulus = shear_to_bulk * k.bulk_modulus;
+        k.law = {k.map.mu_s, k.map.mu_2, k.map.rate_factor, config_.delta};
         c.materials.push_back(k);
     }
     c.body_material.reserve(bodies_.size());

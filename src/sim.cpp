@@ -172,6 +172,8 @@ void Sim::prepare() {
     auto world = make_world(scene_);
     stages::measure_velocities(*world);
     stages::update_neighbors(*world);
+    if (world->constants.scheme != Scheme::adjoint)
+        stages::number_density(*world);
     open_ledger(*world);
 
     traits_ = traits_of(scene_, world->constants);

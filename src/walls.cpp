@@ -80,7 +80,7 @@ int64_t Walls::bytes() const {
     for (const Field<double> *field : {&ghost_along, &ghost_depth, &ghost_shift, &ghost_x, &ghost_y, &ghost_vx,
                                        &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         total += static_cast<int64_t>(field->capacity() * sizeof(double));
-    for (const Field<int32_t> *field : {&ghost_plate, &ghost_of_contact, &contact_start, &fill_})
+    for (const Field<int32_t> *field : {&ghost_plate, &wall_particle, &ghost_of_contact, &contact_start, &fill_})
         total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
     return total +
            static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
@@ -291,6 +291,36 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, cons
         }
     }
     contact_start[n] = static_cast<int32_t>(contacts.size());
+}
+
+void Walls::find_wall_particles(double spacing) {
+    wall_particle.resize(ghost_count);
+    // Ghosts are in order of plate, layer and place along the plate.
+    int64_t first = 0, last = 0; // wall particles of this plate
+    for (int64_t k = 0; k < ghost_count; ++k) {
+        const bool new_plate = k == 0 || ghost_plate[k] != ghost_plate[k - 1];
+        if (new_plate) {
+            const double length = plates[ghost_plate[k]].segment().length;
+            const auto usable = [&](int64_t g) {
+                return g < ghost_count && ghost_plate[g] == ghost_plate[k] && ghost_depth[g] < spacing;
+            };
+            first = k;
+            while (usable(first) && ghost_along[first] < 0)
+                ++first;
+            last = first;
+            while (usable(last) && ghost_along[last] < length)
+                ++last;
+        }
+        if (first == last) { // none is seen
+            wall_particle[k] = static_cast<int32_t>(k);
+            continue;
+        }
+        const auto begin = ghost_along.begin() + first, end = ghost_along.begin() + last;
+        auto nearest = std::lower_bound(begin, end, ghost_along[k]);
+        if (nearest == end || (nearest != begin && ghost_along[k] - *(nearest - 1) < *nearest - ghost_along[k]))
+            --nearest;
+        wall_particle[k] = static_cast<int32_t>(nearest - ghost_along.begin());
+    }
 }
 
 void Walls::place_ghosts(int threads) {

@@ -72,6 +72,7 @@ struct Walls {
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
     Field<int32_t> ghost_plate;
+    Field<int32_t> wall_particle; // the ghost of the first layer whose state it takes; only in the paper's schemes
     Field<double> ghost_along, ghost_depth;        // m, in the plate's frame: from end 0, and behind the wetted line
     Field<double> ghost_shift;                     // m, 0 or a period up or down; periodic scenes only
     Field<double> ghost_x, ghost_y;                // m
@@ -102,6 +103,9 @@ struct Walls {
     // Finds ghosts and contacts within `radius` of the sorted particles.
     void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
                        double spacing, int threads);
+
+    // Finds the wall particle of each ghost: the one in front of it, or the nearest that is between the plate's ends.
+    void find_wall_particles(double spacing);
 
     // Moves the ghosts along with their plates.
     void place_ghosts(int threads);

@@ -84,24 +84,31 @@ GP_API int32_t gp_has_feature(const char *name);
 
 /* --------------------------------------------------------------------------------------------- parameters */
 
-/* Presets: which scheme gp_config_init describes. */
+/* Presets: which scheme gp_config_init describes. The scheme itself follows from nonlocal, stress and density:
+ *   1, GP_STRESS_ELASTIC, GP_DENSITY_CONTINUITY: the default;
+ *   1, GP_STRESS_REGULARIZED, GP_DENSITY_NUMBER: the non-local scheme of [1];
+ *   0, GP_STRESS_REGULARIZED, GP_DENSITY_NUMBER: its local model.
+ * Any other combination is GP_E_UNSUPPORTED at gp_create. The schemes of [1] are there to compare with: they do not come
+ * to rest but creep, the more the longer the time step. They have no zero_energy_penalty, density_diffusion and
+ * bulk_viscosity (else than 0: GP_E_ARGUMENT), and a column's pressure follows from its positions: its initial_pressure
+ * has no effect. Plates have one layer of wall particles, and ghosts with the velocity and the stress of these behind. */
 enum {
     GP_PRESET_DEFAULT = 0,    /* continuity density, return map, extrapolated walls */
-    GP_PRESET_PAPER = 1,      /* the non-local scheme of [1] as printed; not yet: GP_E_UNSUPPORTED at gp_create */
-    GP_PRESET_PAPER_LOCAL = 2 /* the local model of [1]; not yet: GP_E_UNSUPPORTED at gp_create */
+    GP_PRESET_PAPER = 1,      /* the non-local scheme of [1] as printed, but for misprints: friction_factor 2 */
+    GP_PRESET_PAPER_LOCAL = 2 /* the local model of [1] by MPS operators: friction_factor 1 */
 };
 
 /* How the deviatoric stress follows from the motion. */
 enum {
     GP_STRESS_ELASTIC = 0,     /* elastic trial with the mu(I) return map of [2]: a true yield, no regularisation */
-    GP_STRESS_REGULARIZED = 1, /* eta_r of [1], explicit; not yet: GP_E_UNSUPPORTED at gp_create */
+    GP_STRESS_REGULARIZED = 1, /* tau = eta_r D of [1] 3.6, explicit: no yield, creep at rest */
     GP_STRESS_IMPLICIT = 2     /* eta_r of [1], implicit; not yet: GP_E_UNSUPPORTED at gp_create */
 };
 
 /* How the density is found. */
 enum {
     GP_DENSITY_CONTINUITY = 0, /* D rho / Dt = -rho div u */
-    GP_DENSITY_NUMBER = 1      /* from the particle number density, [1] 2.4; not yet: GP_E_UNSUPPORTED at gp_create */
+    GP_DENSITY_NUMBER = 1      /* from the particle number density, [1] 2.4, with the equation of state 2.8 */
 };
 
 typedef struct gp_config {
@@ -111,17 +118,18 @@ typedef struct gp_config {
     double gravity_y;            /* m/s2 [-9.81] */
     double sound_speed;          /* m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling
                                     from its highest to its lowest point, by its initial and plate velocities [0] */
-    double cfl;                  /* time step over dl / (elastic wave speed); 0: the scheme's own;
-                                    else 1e-6 .. 2 [0] */
+    double cfl;                  /* time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0;
+                                    0: the scheme's own, 0.8 or of the schemes of [1] 0.2; else 1e-6 .. 2 [0] */
     double time_step;            /* s, fixed; 0: adaptive. Larger than the stable limit: refused at the first step [0] */
     double interaction_radius;   /* dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4] */
     double horizon;              /* dl, radius of the peridynamic operators; 1.8 .. 8: below, neighbours are too few [4] */
     double horizon_length;       /* m, the horizon as a fixed length; 0: use horizon [0] */
-    int32_t nonlocal;            /* 1: peridynamic force states; 0: local model; not yet: GP_E_UNSUPPORTED [1] */
+    int32_t nonlocal;            /* 1: peridynamic force states; 0: local model [1] */
     int32_t stress;              /* GP_STRESS_... [GP_STRESS_ELASTIC] */
     int32_t density;             /* GP_DENSITY_... [GP_DENSITY_CONTINUITY] */
     double friction_factor;      /* multiplies mu(I): [1] equation 3.12 as printed amounts to 2; 0 .. 10 [1] */
-    double delta;                /* 1/s, regularisation of the viscosity ([1] 3.6), here only of the reported one; > 0 [1e-6] */
+    double delta;                /* 1/s, regularisation of the viscosity ([1] 3.6); with GP_STRESS_ELASTIC only of the
+                                    reported one; > 0 [1e-6] */
     double collision_distance;   /* dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9] */
     double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5
                                     [the scheme's own: 0.02] */
@@ -177,7 +185,8 @@ typedef struct gp_column {
     int32_t initial_pressure; /* GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the
                                  opposite face, for each face of normal n into which gravity presses and at least half of
                                  which rests on plates or on other hydrostatic columns so borne; to it is added what rests on
-                                 the opposite face: such columns, and the normal_pressure of plates. 0 where nothing bears */
+                                 the opposite face: such columns, and the normal_pressure of plates. 0 where nothing bears.
+                                 No effect with GP_DENSITY_NUMBER */
 } gp_column;
 
 /* Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column). */
@@ -301,12 +310,14 @@ typedef struct gp_particles {
     const double *x, *y;    /* m */
     const double *vx, *vy;  /* m/s */
     const double *pressure; /* Pa, p >= 0 */
-    const double *density;  /* kg/m3 */
-    const double *sxx, *sxy, *syy;  /* Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0 */
+    const double *density;  /* kg/m3; with GP_DENSITY_NUMBER rho0 N / N0 */
+    const double *sxx, *sxy, *syy;  /* Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0; with
+                                       GP_STRESS_REGULARIZED eta_r D, whose trace is not 0 */
     const double *shear_rate;       /* 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3) */
     const double *inertial_number;  /* I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4); 0 where p = 0 */
-    const double *viscosity;        /* Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2) */
-    const double *number_density;   /* N = sum of w over the neighbours within interaction_radius ([1] 2.4) */
+    const double *viscosity;        /* Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6) */
+    const double *number_density;   /* N = sum of w over the neighbours within interaction_radius ([1] 2.4); with
+                                       GP_DENSITY_NUMBER the scheme's own, with the ghosts behind plates */
 } gp_particles;
 
 /* Read-only views of the asked fields (GP_FIELD_... or-ed), in the library's own order, which changes from step to
@@ -330,7 +341,9 @@ typedef struct gp_state {
     double elastic;       /* of compression and shear */
     double dissipated;    /* by friction, collisions, walls and the scheme itself */
     double plate_work;    /* done by the material on moving plates */
-    double energy_error;  /* what the ledger does not account for: error of the time integration */
+    double energy_error;  /* what the ledger does not account for: error of the time integration; in the schemes of [1]
+                             also that of their operators, which are not adjoint: several per cent of the energy,
+                             and at rest more and more of it is dissipated on paper alone (below 0) */
     double momentum_x, momentum_y; /* kg/s: kg m/s per metre of depth */
     double max_speed, rms_speed;   /* m/s */
     double x_left, x_right;        /* m, fronts of the connected deposit: the largest set of particles each within

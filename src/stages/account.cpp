@@ -49,7 +49,14 @@ void measure_velocities(World &world) {
     world.velocity_span = std::hypot(all.u_max - all.u_min, all.v_max - all.v_min);
 }
 
-void account(World &world) {
+namespace {
+
+// Adjoint operators leave a residual of the power balance that is the penalty's; otherwise it is the operators' own error,
+// and stays in the ledger's. Measured on the collapse with a = 1.25, L/dl = 32, in shares of the initial energy: the paper's
+// scheme -.057 at .42 s and -.135 at 1 s, with factor 1 +.036 and +.028, the local model +.038 and +.007. What it loses
+// after the arrest is in proportion to the time step (-.027, -.045, -.078, -.153 from .42 to 1 s for a cfl of .05, .1, .2,
+// .4): tau : D at u* counts shear that the forces of the same step undo.
+template <bool Adjoint> void close_books(World &world) {
     const Particles &p = world.particles;
     const double dt = world.clock.dt;
     // Power balance of the force stage, exact by the adjoint operators: with the ghosts' share G of sigma : L,
@@ -95,14 +102,15 @@ void account(World &world) {
         total.kinetic += block.kinetic;
     }
 
-    const double penalty = dt * (contact_power - total.internal_power - total.total_power);
+    const double penalty = Adjoint ? dt * (contact_power - total.internal_power - total.total_power) : 0.0;
+    const double lost_at_walls = Adjoint ? dt * (plate_power - contact_power) : 0.0;
 
     Ledger &ledger = world.ledger;
     ledger.plate_work -= dt * plate_power;
-    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.collision_loss + total.side_walls +
-                         penalty + dt * (plate_power - contact_power);
+    ledger.dissipated +=
+        total.plastic + total.bulk + total.diffused + total.collision_loss + total.side_walls + penalty + lost_at_walls;
     ledger.penalty += penalty;
-    ledger.walls += dt * (plate_power - contact_power);
+    ledger.walls += lost_at_walls;
     ledger.bulk += total.bulk;
     ledger.diffusion += total.diffused;
     ledger.collisions += total.collision_loss;
@@ -111,6 +119,16 @@ void account(World &world) {
     world.collisions += total.collisions / 2;
     world.plastic_power = total.plastic / dt;
     world.rms_acceleration = p.count > 0 ? std::sqrt(total.acceleration2 / static_cast<double>(p.count)) : 0.0;
+}
+
+} // namespace
+
+void account(World &world) {
+    close_books<true>(world);
+}
+
+void account_unbalanced(World &world) {
+    close_books<false>(world);
 }
 
 } // namespace gp::stages

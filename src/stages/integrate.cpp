@@ -7,8 +7,6 @@
 
 namespace gp::stages {
 
-namespace {
-
 // Stops before a non-finite acceleration reaches velocities and positions.
 void require_finite_accelerations(const World &world) {
     double sum = 0;
@@ -19,16 +17,13 @@ void require_finite_accelerations(const World &world) {
     const Particles &p = world.particles;
     for (int64_t i = 0; i < p.count; ++i)
         if (!std::isfinite(p.ax[i] * p.ax[i] + p.ay[i] * p.ay[i]))
-            throw make_error(
-                GP_E_DIVERGED,
-                "stage force: acceleration (%g, %g) m/s2 of particle %lld at (%g, %g) m, time %g s, step %lld", p.ax[i],
-                p.ay[i], static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time,
-                static_cast<long long>(world.clock.step));
-    throw make_error(GP_E_DIVERGED, "stage force: accelerations too large to sum, time %g s, step %lld",
-                     world.clock.time, static_cast<long long>(world.clock.step));
+            throw make_error(GP_E_DIVERGED,
+                             "forces: acceleration (%g, %g) m/s2 of particle %lld at (%g, %g) m, time %g s, step %lld",
+                             p.ax[i], p.ay[i], static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time,
+                             static_cast<long long>(world.clock.step));
+    throw make_error(GP_E_DIVERGED, "forces: accelerations too large to sum, time %g s, step %lld", world.clock.time,
+                     static_cast<long long>(world.clock.step));
 }
-
-} // namespace
 
 void integrate(World &world) {
     require_finite_accelerations(world);

@@ -32,6 +32,8 @@ void wall_stress(World &world);
 void force(World &world);
 // u, then r.
 void integrate(World &world);
+// Throws GP_E_DIVERGED if an acceleration is not a finite number.
+void require_finite_accelerations(const World &world);
 // Coulomb friction of plates.
 void wall_friction(World &world);
 // Coulomb friction of the channel's side walls.
@@ -44,5 +46,34 @@ void wall_contact(World &world);
 void account(World &world);
 // The part of account that the next step's size follows from; also run before the first step.
 void measure_velocities(World &world);
+
+// ------------------------------------------------------------------------------------ of the paper's schemes
+
+// u* and r* by gravity (3.14, 3.15); in the local model also by the viscous force.
+void predict(World &world);
+void predict_with_viscosity(World &world);
+// Number density and equation of state (2.4, 2.8).
+void number_density(World &world);
+// Ghost velocities: the plate's own.
+void ghost_velocity(World &world);
+// Velocity gradient by the MPS operator (2.7).
+void mps_gradient(World &world);
+// Shape tensor alone (3.11).
+void shape_tensor(World &world);
+// eta_r D (3.6); the second leaves sigma K^-1, too.
+void viscous_stress(World &world);
+void viscous_stress_over_shape(World &world);
+// Ghost stresses: those of the wall particles. For force states; for viscous_force; for pressure_gradient.
+void wall_particles(World &world);
+void wall_viscous_stress(World &world);
+void wall_pressure(World &world);
+// The local model's forces (5.1, by 2.7).
+void viscous_force(World &world);
+void pressure_gradient(World &world);
+// u^{k+1} and r^{k+1} (3.16, 3.17).
+void correct(World &world);
+void correct_by_pressure(World &world);
+// account for operators that are not adjoint: what does not balance stays in the ledger's error.
+void account_unbalanced(World &world);
 
 } // namespace gp::stages

@@ -40,7 +40,7 @@ void update_neighbors(World &world) {
         return;
     world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(shift / c.spacing), thinnest_skin, thickest_skin);
     world.shifted = 0;
-    const double radius = c.horizon + world.skin;
+    const double radius = c.reach + world.skin;
     const double close = world.scene->config().collision_distance * c.spacing + world.skin;
     const double tolerance = 1e-9 * c.spacing;
     const Period &period = c.period;
@@ -59,6 +59,8 @@ void update_neighbors(World &world) {
                    world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads,
                    world.neighbors);
     world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing, world.threads);
+    if (c.scheme != Scheme::adjoint)
+        world.walls.find_wall_particles(c.spacing);
     world.lists_valid = true;
 }
 

@@ -181,8 +181,6 @@ TEST(Config, OptionsOfLaterVersionsAreUnsupportedByName) {
         void (*set)(gp_config &);
     };
     const Option options[] = {
-        {"preset", [](gp_config &c) { c.preset = GP_PRESET_PAPER; }},
-        {"preset", [](gp_config &c) { c.preset = GP_PRESET_PAPER_LOCAL; }},
         {"stress", [](gp_config &c) { c.stress = GP_STRESS_REGULARIZED; }},
         {"stress", [](gp_config &c) { c.stress = GP_STRESS_IMPLICIT; }},
         {"density", [](gp_config &c) { c.density = GP_DENSITY_NUMBER; }},
@@ -208,13 +206,20 @@ TEST(Config, OptionsOfLaterVersionsAreUnsupportedByName) {
     }
 }
 
-// The preset is described, and refused by gp_create only.
-TEST(Config, PaperPresetsCanBeDescribed) {
+TEST(Config, PaperPresetsAreTheDocumentedOnes) {
     for (const int32_t preset : {GP_PRESET_PAPER, GP_PRESET_PAPER_LOCAL}) {
         gp_config config;
         ASSERT_EQ(gp_config_init(&config, sizeof config, preset), GP_OK);
         EXPECT_EQ(config.preset, preset);
-        EXPECT_FAILS(create(config), GP_E_UNSUPPORTED, "preset");
+        EXPECT_EQ(config.nonlocal, preset == GP_PRESET_PAPER ? 1 : 0);
+        EXPECT_EQ(config.stress, GP_STRESS_REGULARIZED);
+        EXPECT_EQ(config.density, GP_DENSITY_NUMBER);
+        EXPECT_EQ(config.friction_factor, preset == GP_PRESET_PAPER ? 2 : 1);
+        EXPECT_EQ(config.collision_distance, 0.9);
+        EXPECT_EQ(config.zero_energy_penalty, 0);
+        EXPECT_EQ(config.density_diffusion, 0);
+        EXPECT_EQ(config.bulk_viscosity, 0);
+        EXPECT_EQ(create(config), GP_OK) << gp_last_error();
     }
     for (const int32_t preset : {-1, 3, INT32_MAX}) {
         gp_config config;
@@ -223,6 +228,44 @@ TEST(Config, PaperPresetsCanBeDescribed) {
         EXPECT_FAILS(gp_config_init(&config, sizeof config, preset), GP_E_ARGUMENT, "preset");
         EXPECT_EQ(std::memcmp(&config, &before, sizeof config), 0);
     }
+}
+
+// nonlocal, stress and density choose a scheme together: three of the combinations are one.
+TEST(Config, CombinationsThatAreNoSchemeAreUnsupported) {
+    for (const int32_t preset : {GP_PRESET_DEFAULT, GP_PRESET_PAPER, GP_PRESET_PAPER_LOCAL})
+        for (int32_t nonlocal = 0; nonlocal < 2; ++nonlocal)
+            for (int32_t stress = 0; stress < 3; ++stress)
+                for (int32_t density = 0; density < 2; ++density) {
+                    SCOPED_TRACE(testing::Message() << preset << ": " << nonlocal << stress << density);
+                    gp_config config;
+                    ASSERT_EQ(gp_config_init(&config, sizeof config, preset), GP_OK);
+                    config.nonlocal = nonlocal;
+                    config.stress = stress;
+                    config.density = density;
+                    config.zero_energy_penalty = config.density_diffusion = config.bulk_viscosity = 0;
+                    const bool first = stress == GP_STRESS_ELASTIC && density == GP_DENSITY_CONTINUITY && nonlocal;
+                    if (first || (stress == GP_STRESS_REGULARIZED && density == GP_DENSITY_NUMBER)) {
+                        EXPECT_EQ(create(config), GP_OK) << gp_last_error();
+                    } else {
+                        EXPECT_FAILS(create(config), GP_E_UNSUPPORTED, "possible are");
+                    }
+                }
+}
+
+// What the default scheme alone has is refused rather than ignored.
+TEST(Config, SettingsThatTheSchemeDoesNotHaveAreRefused) {
+    const std::pair<const char *, double gp_config::*> settings[] = {
+        {"zero_energy_penalty", &gp_config::zero_energy_penalty},
+        {"density_diffusion", &gp_config::density_diffusion},
+        {"bulk_viscosity", &gp_config::bulk_viscosity},
+    };
+    for (const int32_t preset : {GP_PRESET_PAPER, GP_PRESET_PAPER_LOCAL})
+        for (const auto &setting : settings) {
+            gp_config config;
+            ASSERT_EQ(gp_config_init(&config, sizeof config, preset), GP_OK);
+            config.*setting.second = 0.1;
+            EXPECT_FAILS(create(config), GP_E_ARGUMENT, setting.first);
+        }
 }
 
 // The time step cannot be judged before the scene is complete: it is refused at the first step, and the scene is still

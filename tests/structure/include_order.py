@@ -6,15 +6,15 @@ import sys
 
 LAYERS = [
     ["granperi/gp", "error", "check", "parallel"],
-    ["geometry", "kernel", "material/return_map"],
+    ["geometry", "kernel", "material/number_density_state", "material/regularized", "material/return_map"],
     ["scene", "scene_constants", "scene_defaults", "scene_pressure"],
     ["particles"],
     ["periodic"],
     ["neighbors"],
-    ["operators", "walls"],
+    ["mps_operators", "operators", "walls"],
     ["world", "ledger"],
     ["stages/*"],
-    ["plan"],
+    ["plan", "plan_paper"],
     ["sim"],
     ["fields", "diagnostics", "diagnostics_shape", "io/*"],
     ["api"],
