@@ -282,9 +282,9 @@ HORIZON_STUDY = {"default": HORIZONS, "nonlocal_2": HORIZONS}
 HORIZON_LENGTH_STUDY = {"default": (16, 32, 64), "nonlocal_2": (16, 32, 64)}
 MAIN_SCENES = {  # of which schemes there are runs
     "both_1.25": tuple(SCHEMES),
-    "both_5": tuple(key for key in SCHEMES if key != "local_1"),
-    "one_side": tuple(key for key in SCHEMES if key != "local_1"),
-    "colliding_1": tuple(key for key in SCHEMES if key != "local_1"),
+    "both_5": tuple(SCHEMES),
+    "one_side": tuple(key for key in SCHEMES if key != "local_2"),
+    "colliding_1": tuple(key for key in SCHEMES if key != "local_2"),
     "colliding_2": tuple(SCHEMES),
 }
 
