@@ -69,8 +69,8 @@ static double *allocate(int64_t n) {
     return values;
 }
 
-/* Columns that are still apart: the library's surface is that of the larger one. For the other, half a spacing above the
- * highest particle within a spacing of the station. */
+/* The library's surface is that of the largest connected set. For what is apart from it, another column or single grains,
+ * half a spacing above the highest particle within a spacing of the station. */
 static void add_detached(gp_sim *sim, const recording *r, const gp_state *s, int64_t n, double begin, double step,
                          double *height) {
     gp_particles p;
@@ -98,25 +98,23 @@ static void find_extent(gp_sim *sim, double *left, double *right) {
     }
 }
 
-/* Stations half a spacing apart from front to front; in scenes of two columns over all particles. */
+/* Stations half a spacing apart over all particles. */
 static void write_surface(FILE *file, gp_sim *sim, const recording *r, const gp_state *s) {
     const double step = r->spacing / 2;
     double left = s->x_left, right = s->x_right, *x, *height;
     int64_t n, k;
     if (!file)
         return;
-    if (r->columns > 1)
-        find_extent(sim, &left, &right);
+    find_extent(sim, &left, &right);
     n = (int64_t)floor((right - left) / step) + 3;
     x = allocate(2 * n);
     height = x + n;
     for (k = 0; k < n; ++k)
         x[k] = left + (double)(k - 1) * step;
     CHECK(gp_get_surface(sim, n, x, height));
-    if (r->columns > 1)
-        add_detached(sim, r, s, n, x[0], step, height);
+    add_detached(sim, r, s, n, x[0], step, height);
     for (k = 0; k < n; ++k)
-        fprintf(file, "%.6g,%.6g,%.6g\n", s->time, x[k], height[k]);
+        fprintf(file, "%.6g,%.6g,%.6g,%d\n", s->time, x[k], height[k], x[k] >= s->x_left && x[k] <= s->x_right);
     free(x);
 }
 
@@ -216,7 +214,7 @@ void record_run(gp_sim *sim, const recording *r) {
     f.series = open_table(r, "series",
                           "time,peak_height,peak_x,x_left,x_right,axis_height,rms_speed,max_speed,kinetic_share,"
                           "energy_error_share,max_pressure,at_rest");
-    f.surface = open_table(r, "surface", "time,x,height");
+    f.surface = open_table(r, "surface", "time,x,height,connected");
     f.section = open_table(r, "section", "time,y,x,vx,speed,particles");
     f.interface = open_table(r, "interface", "time,y,x");
     for (;;) {

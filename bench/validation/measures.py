@@ -22,7 +22,7 @@ def run_out_at(result: Result, time: float) -> float:
 
 def contact_front(result: Result, time: float, height: float, threshold: float) -> float:
     """Outermost x/H0 at which the surface is above the threshold x H0, mean of both sides, as in references.py."""
-    x, surface = result.surface(time)
+    x, surface = result.surface(time, everything=True)
     above = x[surface > threshold * height]
     return float((above.max() - above.min()) / 2 / height) if len(above) else math.nan
 
@@ -66,7 +66,7 @@ def interface_spread(result: Result, time: float, fits: list[tuple[float, float]
 
 def surface_difference(one: Result, other: Result, time: float) -> float:
     """Mean distance of two surfaces (m) over the length that either covers."""
-    (x1, h1), (x2, h2) = one.surface(time), other.surface(time)
+    (x1, h1), (x2, h2) = one.surface(time, everything=True), other.surface(time, everything=True)
     if not len(x1) or not len(x2):
         return math.nan
     x = np.linspace(min(x1[0], x2[0]), max(x1[-1], x2[-1]), 800)

@@ -28,26 +28,33 @@ def profiles(
     unit_name: str,
     start: list[tuple[float, float, float]],
     marks: Callable[[Axes, float], None] | None = None,
+    everything: bool = False,
 ) -> bool:
     """Surfaces at several times, one panel below the other. start: columns as (x_min, width, height)."""
-    times = [t for t in times if any(len(result.surface(t)[0]) for _, result in chosen)]
-    if not times:
+    surfaces = {time: [(key, *result.surface(time, everything)) for key, result in chosen] for time in times}
+    surfaces = {time: [one for one in found if len(one[1])] for time, found in surfaces.items()}
+    surfaces = {time: found for time, found in surfaces.items() if found}
+    if not surfaces:
         return False
-    left = min(result.surface(t)[0].min() for _, result in chosen for t in times if len(result.surface(t)[0])) / unit
-    right = max(result.surface(t)[0].max() for _, result in chosen for t in times if len(result.surface(t)[0])) / unit
+    left = min(x.min() for found in surfaces.values() for _, x, _ in found) / unit
+    right = max(x.max() for found in surfaces.values() for _, x, _ in found) / unit
     top = max(height for _, _, height in start) / unit * 1.12
     width = 10.0
     each = max(1.2, width * top / (right - left))
     figure, panels = plt.subplots(
-        len(times), 1, figsize=(width, len(times) * (each + 0.35)), sharex=True, squeeze=False, layout="compressed"
+        len(surfaces),
+        1,
+        figsize=(width, len(surfaces) * (each + 0.35)),
+        sharex=True,
+        squeeze=False,
+        layout="compressed",
     )
-    for axes, time in zip(panels[:, 0], times):
+    for axes, (time, found) in zip(panels[:, 0], surfaces.items()):
         for x, w, h in start:
             axes.add_patch(
                 plt.Rectangle((x / unit, 0), w / unit, h / unit, fill=False, color="0.6", linestyle=":", lw=1.4)
             )
-        for key, result in chosen:
-            x, height = result.surface(time)
+        for key, x, height in found:
             color, line = STYLES[key]
             axes.plot(x / unit, height / unit, color=color, linestyle=line, label=label_of(key))
         if marks:
@@ -92,7 +99,15 @@ def one_side(path: Path, results: Collection) -> bool:
 
 def colliding(path: Path, results: Collection) -> bool:
     chosen = available(results, lambda key: runs.main_run("colliding_1", key), runs.MAIN_SCENES["colliding_1"])
-    return profiles(path, chosen, (0.1, 0.2, 0.3, 0.4, 1.61), 1.0, " (m)", [(-0.10, 0.08, 0.156), (0.02, 0.08, 0.054)])
+    return profiles(
+        path,
+        chosen,
+        (0.1, 0.2, 0.3, 0.4, 1.61),
+        1.0,
+        " (m)",
+        [(-0.10, 0.08, 0.156), (0.02, 0.08, 0.054)],
+        everything=True,
+    )
 
 
 def interface(path: Path, results: Collection) -> bool:
@@ -138,22 +153,22 @@ def interface(path: Path, results: Collection) -> bool:
 
 
 def peak_in_time(path: Path, results: Collection) -> bool:
-    """Left: schemes. Right: horizons, with the paper's numbers."""
+    """Above: schemes. Below: horizons, with the paper's numbers."""
     chosen = available(results, lambda key: runs.main_run("both_1.25", key), runs.SCHEMES)
     if not chosen:
         return False
-    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5), sharey=True, layout="constrained")
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(11, 8), sharex=True, sharey=True, layout="constrained")
     for key, result in chosen:
         series = result.tables["series"]
         color, line = STYLES[key]
-        left.plot(series["time"], series["peak_height"] / ref.WIDTH, color=color, linestyle=line, label=label_of(key))
+        upper.plot(series["time"], series["peak_height"] / ref.WIDTH, color=color, linestyle=line, label=label_of(key))
     lines = {2.2: ":", 3.0: "--", 4.0: "-"}
     for scheme, horizons in runs.HORIZON_STUDY.items():
         for horizon in horizons:
             result = results(runs.horizon_run(scheme, horizon))
             if result:
                 series = result.tables["series"]
-                right.plot(
+                lower.plot(
                     series["time"],
                     series["peak_height"] / ref.WIDTH,
                     color=STYLES[scheme][0],
@@ -161,16 +176,16 @@ def peak_in_time(path: Path, results: Collection) -> bool:
                     label=f"{label_of(scheme)}, horizon {horizon:g} dl",
                 )
     creep = {ref.PEAK_TIME: ref.PAPER_PEAK[2.2], **ref.PAPER_CREEP_2_2}
-    right.plot(list(creep), list(creep.values()), "kx", ms=9, mew=2, label="paper, horizon 2.2 dl")
-    right.plot([ref.PEAK_TIME], [ref.PAPER_PEAK[4.0]], "k+", ms=12, mew=2, label="paper, horizon 4 dl")
-    for axes in (left, right):
+    lower.plot(list(creep), list(creep.values()), "kx", ms=9, mew=2, label="paper, horizon 2.2 dl")
+    lower.plot([ref.PEAK_TIME], [ref.PAPER_PEAK[4.0]], "k+", ms=12, mew=2, label="paper, horizon 4 dl")
+    for axes in (upper, lower):
         axes.plot(
             [ref.PEAK_TIME], [ref.EXPERIMENT_PEAK], "o", color="black", ms=8, mfc="none", mew=2, label="experiment"
         )
-        axes.set_xlabel("t (s)")
+        axes.set_ylabel("peak y/L")
         axes.set_xlim(0, 3.05)
-        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, fontsize=11.5)
-    left.set_ylabel("peak y/L")
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    lower.set_xlabel("t (s)")
     return finish(figure, path)
 
 

@@ -24,7 +24,7 @@ RUN_TIME_CAPTION = (
     "Error against run time. Left: from the experiment, which says how good the model is. Right: from the finest grid "
     "of the same code, which says how good the numerics are (0.05 % and less drawn as 0.05 %)"
 )
-PEAK_CAPTION = "Highest point against time. Left: the schemes; right: their horizons, the paper's figure 4"
+PEAK_CAPTION = "Highest point against time. Above: the schemes; below: horizons, the paper's figure 4"
 
 
 def provenance(collection: Collection) -> str:

@@ -13,6 +13,7 @@ from runs import Run
 
 ROOT = Path(__file__).resolve().parents[2]
 DIRECTORY = ROOT / "results" / "validation"
+FORMAT = 2  # of the files: those of another one are as if they were not there
 TABLES = ("series", "surface", "section", "interface")
 
 
@@ -58,8 +59,11 @@ class Result:
             chosen &= np.abs(columns[name] - value) < 1e-9
         return {name: values[chosen] for name, values in columns.items()}
 
-    def surface(self, time: float) -> tuple[np.ndarray, np.ndarray]:
+    def surface(self, time: float, everything: bool = False) -> tuple[np.ndarray, np.ndarray]:
+        """x and height of the connected deposit, or of all material; x has no gaps."""
         rows = self.select("surface", time)
+        if rows and not everything:
+            rows = {name: values[rows["connected"] == 1] for name, values in rows.items()}
         return (rows["x"], rows["height"]) if rows else (np.array([]), np.array([]))
 
     def interface_angle(self, time: float, low: float, high: float) -> float:
@@ -89,7 +93,8 @@ def load_raw(run: Run, directory: Path = DIRECTORY) -> dict[str, Any] | None:
     path = path_of(run, directory)
     if not path.exists():
         return None
-    return json.loads(path.read_text(encoding="utf-8"))
+    data = json.loads(path.read_text(encoding="utf-8"))
+    return data if data.get("format") == FORMAT else None
 
 
 def save(run: Run, data: dict[str, Any], directory: Path = DIRECTORY) -> None:
@@ -97,7 +102,7 @@ def save(run: Run, data: dict[str, Any], directory: Path = DIRECTORY) -> None:
     directory.mkdir(parents=True, exist_ok=True)
     path = path_of(run, directory)
     partial = path.with_suffix(".partial")
-    partial.write_text(json.dumps(data), encoding="utf-8")
+    partial.write_text(json.dumps({**data, "format": FORMAT}), encoding="utf-8")
     partial.replace(path)
 
 

@@ -40,7 +40,7 @@ def factor_two(results: Collection) -> str:
     if near_two and not near_one:
         lines.append(
             f"**The factor 2 reproduces the printed number within {100 * CLOSE:g} %, the factor 1 does not: the "
-            "printed figures have the doubled friction in them.**"
+            "printed figures very probably have the doubled friction in them.**"
         )
     elif near_one and not near_two:
         lines.append(
@@ -240,6 +240,7 @@ def disagreements(results: Collection) -> list[str]:
             + ", ".join(f"a = {a:g} ({100 * value:+.0f} %)" for a, value in off)
             + "."
         )
+    found += paper_not_reproduced(results)
     for scene, title in (
         ("both_5", "a = 5"),
         ("one_side", "one side"),
@@ -264,6 +265,35 @@ def disagreements(results: Collection) -> list[str]:
     if worst[0] > 0.005:
         found.append(
             f"Energy ledger of the default scheme: up to {100 * worst[0]:.2f} % of E0 are unaccounted for ({worst[1]})."
+        )
+    return found
+
+
+def paper_not_reproduced(results: Collection) -> list[str]:
+    """Printed numbers that our implementation of the printed scheme misses."""
+    found = []
+    for r, printed in ref.PAPER_RESOLUTION.items():
+        result = results(runs.resolution_run("nonlocal_2", r))
+        if result and abs(peak(result) / printed - 1) > CLOSE:
+            found.append(
+                f"As printed, L/dl = {r}: our peak at 0.42 s is {peak(result):.3f}, the paper prints {printed:.3f}."
+            )
+    narrow = results(runs.horizon_run("nonlocal_2", 2.2))
+    if narrow:
+        printed_by_time = {ref.PEAK_TIME: ref.PAPER_PEAK[2.2], **ref.PAPER_CREEP_2_2}
+        off = {t: peak(narrow, t) for t, value in printed_by_time.items() if abs(peak(narrow, t) / value - 1) > CLOSE}
+        if off:
+            found.append(
+                "As printed, horizon 2.2 dl: our peak is "
+                + ", ".join(f"{value:.3f} at {t:g} s (printed {printed_by_time[t]:.3f})" for t, value in off.items())
+                + "."
+            )
+    wide = results(runs.horizon_run("nonlocal_2", 4.0))
+    if wide and abs(peak(wide, 3.0) / peak(wide, 1.0) - 1) > CLOSE:
+        found.append(
+            f"As printed, horizon 4 dl: our peak goes from {peak(wide, 1.0):.3f} at 1 s to {peak(wide, 3.0):.3f} at 3 s; "
+            "the paper finds limited variation. Stiff friction, stepped explicitly, does not hold a pile: the larger "
+            "horizon slows the creep and does not end it."
         )
     return found
 
