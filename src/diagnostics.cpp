@@ -10,7 +10,7 @@ namespace gp {
 namespace {
 
 // At rest: gp_state.at_rest in gp.h defines it with these numbers.
-constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_acceleration = 0.05;
+constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_unbalanced = 0.01;
 
 bool is_at_rest(const World &world, const Energies &e) {
     const double scale = std::max(world.ledger.initial, world.ledger.largest_kinetic);
@@ -18,7 +18,7 @@ bool is_at_rest(const World &world, const Energies &e) {
     if (world.clock.step == 0)
         return e.kinetic == 0 && c.gravity.norm() == 0;
     return e.kinetic <= rest_kinetic * scale && world.plastic_power * c.time_scale <= rest_plastic * scale &&
-           world.rms_acceleration <= rest_acceleration * c.gravity.norm();
+           world.unbalanced_share <= rest_unbalanced;
 }
 
 } // namespace

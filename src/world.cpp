@@ -27,6 +27,8 @@ std::unique_ptr<World> make_world(const Scene &scene) {
         p.pressure[i] = pressure[i];
         p.density[i] = world->material_of(i).density + pressure[i] / (c.sound_speed * c.sound_speed);
     }
+    for (int64_t i = 0; i < p.count; ++i)
+        world->mass += world->material_of(i).density * p.volume;
     const int64_t blocks = block_count(p.count);
     world->sums.resize(blocks);
     world->ranges.resize(blocks);

@@ -43,6 +43,7 @@ struct alignas(64) BlockSums {
     double total_power = 0;    // W/m, of all internal and wall forces
     double internal_power = 0; // W/m, sum of V sigma:L
     double acceleration2 = 0;  // m2/s4, sum
+    double unbalanced = 0;     // kg/m, mass of the particles that forces and pushes together still accelerate
     double collision_loss = 0; // J/m
     double side_walls = 0;     // J/m, dissipated by the friction of side walls
     int64_t collisions = 0;    // counted from both sides
@@ -53,6 +54,9 @@ struct alignas(64) BlockSums {
 struct alignas(64) BlockRange {
     double u_min, u_max, v_min, v_max;
 };
+
+// gp_state.at_rest: below this, in g, an acceleration does not count.
+constexpr double rest_acceleration = 0.05;
 
 struct World {
     const Scene *scene = nullptr;
@@ -65,6 +69,7 @@ struct World {
     NeighborList neighbors;
     Walls walls;
     Clock clock;
+    double mass = 0; // kg/m, of all particles
     Ledger ledger;
 
     // Neighbour lists are good while particles (and plates) have moved by less than the skin against each other.
@@ -76,9 +81,9 @@ struct World {
 
     std::vector<BlockSums> sums;
     std::vector<BlockRange> ranges;
-    Field<uint8_t> colliding; // partners of each particle in this step's collisions
-    double plastic_power = 0; // W/m, of the last step
-    double rms_acceleration = 0;
+    Field<uint8_t> colliding;    // partners of each particle in this step's collisions
+    double plastic_power = 0;    // W/m, of the last step
+    double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g
     int64_t collisions = 0;
 
     const ReturnMap &map_of(int64_t i) const { return material_of(i).map; }

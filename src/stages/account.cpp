@@ -9,10 +9,11 @@ namespace gp::stages {
 
 void measure_velocities(World &world) {
     const Particles &p = world.particles;
+    const double threshold = rest_acceleration * world.constants.gravity.norm(), threshold2 = threshold * threshold;
     const double inverse_dt = world.clock.dt > 0 ? 1.0 / world.clock.dt : 0.0;
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         BlockRange range{INFINITY, -INFINITY, INFINITY, -INFINITY};
-        double kinetic = 0, acceleration2 = 0;
+        double kinetic = 0, unbalanced = 0;
         for (int64_t i = begin; i < end; ++i) {
             const double u = p.vx[i], v = p.vy[i];
             range.u_min = u < range.u_min ? u : range.u_min;
@@ -21,11 +22,12 @@ void measure_velocities(World &world) {
             range.v_max = v > range.v_max ? v : range.v_max;
             kinetic += world.material_of(i).density * (u * u + v * v);
             const double ax = p.ax[i] + inverse_dt * p.push_x[i], ay = p.ay[i] + inverse_dt * p.push_y[i];
-            acceleration2 += ax * ax + ay * ay;
+            if (ax * ax + ay * ay > threshold2)
+                unbalanced += world.material_of(i).density;
         }
         world.ranges[block] = range;
         world.sums[block].kinetic = 0.5 * p.volume * kinetic;
-        world.sums[block].acceleration2 = acceleration2;
+        world.sums[block].unbalanced = p.volume * unbalanced;
     });
 
     if (p.count == 0)
@@ -95,7 +97,7 @@ template <bool Adjoint> void close_books(World &world) {
         total.diffused += block.diffused;
         total.total_power += block.total_power;
         total.internal_power += block.internal_power;
-        total.acceleration2 += block.acceleration2;
+        total.unbalanced += block.unbalanced;
         total.collision_loss += block.collision_loss;
         total.side_walls += block.side_walls;
         total.collisions += block.collisions;
@@ -118,7 +120,7 @@ template <bool Adjoint> void close_books(World &world) {
     ledger.largest_kinetic = std::max(ledger.largest_kinetic, total.kinetic);
     world.collisions += total.collisions / 2;
     world.plastic_power = total.plastic / dt;
-    world.rms_acceleration = p.count > 0 ? std::sqrt(total.acceleration2 / static_cast<double>(p.count)) : 0.0;
+    world.unbalanced_share = world.mass > 0 ? total.unbalanced / world.mass : 0.0;
 }
 
 } // namespace

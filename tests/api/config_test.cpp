@@ -185,18 +185,6 @@ TEST(Config, OptionsOfLaterVersionsAreUnsupportedByName) {
         {"stress", [](gp_config &c) { c.stress = GP_STRESS_IMPLICIT; }},
         {"density", [](gp_config &c) { c.density = GP_DENSITY_NUMBER; }},
         {"nonlocal", [](gp_config &c) { c.nonlocal = 0; }},
-        {"channel_width", [](gp_config &c) { c.channel_width = 0.1; }},
-        {"channel_width",
-         [](gp_config &c) {
-             c.channel_width = 0.1;
-             c.channel_friction = 0.3;
-         }},
-        {"periodic_x_max", [](gp_config &c) { c.periodic_x_max = 1; }},
-        {"periodic_x_max",
-         [](gp_config &c) {
-             c.periodic_x_min = -2;
-             c.periodic_x_max = -1;
-         }},
     };
     for (const Option &option : options) {
         SCOPED_TRACE(option.name);
@@ -204,6 +192,19 @@ TEST(Config, OptionsOfLaterVersionsAreUnsupportedByName) {
         option.set(config);
         EXPECT_FAILS(create(config), GP_E_UNSUPPORTED, option.name);
     }
+}
+
+TEST(Config, PeriodIsChecked) {
+    gp_config config = make_config();
+    config.periodic_x_min = -0.1;
+    config.periodic_x_max = -0.1 + 9.9 * config.spacing; // twice the horizon of 4 and two spacings are 10
+    EXPECT_FAILS(create(config), GP_E_ARGUMENT, "periodic_x_max");
+    config.periodic_x_max = -0.1 + 10.1 * config.spacing;
+    EXPECT_EQ(create(config), GP_OK) << gp_last_error();
+    config.horizon = 6;
+    EXPECT_FAILS(create(config), GP_E_ARGUMENT, "periodic_x_max");
+    config.periodic_x_max = -0.2;
+    EXPECT_FAILS(create(config), GP_E_ARGUMENT, "periodic_x_max");
 }
 
 TEST(Config, PaperPresetsAreTheDocumentedOnes) {

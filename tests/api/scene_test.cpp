@@ -321,16 +321,45 @@ TEST(Plate, ChoicesAreChecked) {
     EXPECT_EQ(sim.add(make_floor()), 0) << "the refused ones were not counted";
 }
 
-TEST(Plate, LoadedPlatesAreOfALaterVersion) {
+TEST(Plate, LoadsAreChecked) {
     Sim sim;
     gp_plate plate = make_floor();
     plate.normal_pressure = 100;
+    plate.vx = 0.1; // along the floor: prescribed
     int32_t id = 9;
-    EXPECT_FAILS(gp_add_plate(sim, &plate, &id), GP_E_UNSUPPORTED, "normal_pressure");
+    EXPECT_EQ(gp_add_plate(sim, &plate, &id), GP_OK) << gp_last_error();
     EXPECT_EQ(id, 0);
-    plate.mass_per_length = 3;
-    EXPECT_FAILS(gp_add_plate(sim, &plate, nullptr), GP_E_UNSUPPORTED, "normal_pressure");
-    EXPECT_EQ(sim.add(make_floor()), 0);
+    EXPECT_FAILS(gp_set_plate_velocity(sim, id, 0, 0.1), GP_E_ARGUMENT, "velocity");
+    EXPECT_EQ(gp_set_plate_velocity(sim, id, 0.2, 0), GP_OK);
+    plate.vy = 0.1; // along its normal: the load's business
+    EXPECT_FAILS(gp_add_plate(sim, &plate, &id), GP_E_ARGUMENT, "gp_plate velocity");
+    plate = make_floor();
+    plate.normal_pressure = 100;
+    const double t = 0, x = 0;
+    plate.n_knots = 1;
+    plate.knot_t = &t;
+    plate.knot_x = plate.knot_y = &x;
+    EXPECT_FAILS(gp_add_plate(sim, &plate, nullptr), GP_E_ARGUMENT, "n_knots");
+}
+
+TEST(Period, HoldsWhatIsAdded) {
+    gp_config config = make_config();
+    config.periodic_x_min = 0;
+    config.periodic_x_max = 20 * config.spacing;
+    Sim sim(config);
+    gp_column column = make_column(10, 5, 10 * config.spacing);
+    EXPECT_EQ(gp_add_column(sim, &column, nullptr), GP_OK) << gp_last_error();
+    column.x_min += config.spacing;
+    EXPECT_FAILS(gp_add_column(sim, &column, nullptr), GP_E_ARGUMENT, "period");
+    const double x = -config.spacing, y = 1;
+    EXPECT_FAILS(gp_add_particles(sim, 0, 1, &x, &y, nullptr, nullptr, nullptr), GP_E_ARGUMENT, "x[0]");
+    gp_plate plate = make_floor();
+    plate.x0 = 20 * config.spacing;
+    plate.x1 = 0;
+    plate.y0 = plate.y1 = 0;
+    EXPECT_EQ(gp_add_plate(sim, &plate, nullptr), GP_OK) << gp_last_error();
+    plate.x1 = -config.spacing;
+    EXPECT_FAILS(gp_add_plate(sim, &plate, nullptr), GP_E_ARGUMENT, "period");
 }
 
 TEST(Plate, TableIsChecked) {
