@@ -335,6 +335,15 @@ static incline bagnold_data(const law *l, double h, double angle) {
     return b;
 }
 
+static double surface_velocity(const layer *a) {
+    double *u = field(a, GP_FIELD_VX), mean = 0;
+    int64_t i;
+    for (i = a->count - BOX_CELLS; i < a->count; ++i)
+        mean += u[i] / BOX_CELLS;
+    free(u);
+    return mean;
+}
+
 /* Steady flow down an incline; with start_up from rest, where u_s = g cos (tan - mu_s) t early. */
 static void bagnold(const options *o, int start_up) {
     const law l = beads(0.002);
@@ -355,23 +364,28 @@ static void bagnold(const options *o, int start_up) {
                      0,
                      0};
     layer a = make_layer(o, &s);
-    CHECK(gp_run(a.sim, end));
-    printf("surface_velocity    %.6g m/s exact\n", fastest);
     if (start_up) {
-        double *u = field(&a, GP_FIELD_VX), mean = 0;
-        const double exact = gravity * cos(angle) * (tan(angle) - l.mu_s) * end;
-        int64_t i;
-        for (i = a.count - BOX_CELLS; i < a.count; ++i)
-            mean += u[i] / BOX_CELLS;
-        printf("surface_start_up    %.6g m/s, exact %.6g\n", mean, exact);
-        printf("error               %.6g\n", mean / exact - 1);
-        free(u);
+        /* The elastic material takes up its shear first, which leaves an offset of the order of (g/c0) h: what the law
+         * sets is the acceleration after that. */
+        const double exact = gravity * cos(angle) * (tan(angle) - l.mu_s);
+        double early, late;
+        CHECK(gp_run(a.sim, end / 3));
+        early = surface_velocity(&a);
+        CHECK(gp_run(a.sim, end));
+        late = surface_velocity(&a);
+        printf("acceleration        %.6g m/s2, exact %.6g\n", (late - early) / (2 * end / 3), exact);
+        printf("error               %.6g of the acceleration\n", (late - early) / (2 * end / 3) / exact - 1);
+        printf("error_velocity      %.6g of the velocity at the end\n", late / (exact * end) - 1);
     } else {
+        CHECK(gp_run(a.sim, end));
+        printf("surface_velocity    %.6g m/s exact\n", fastest);
+        /* The uppermost twentieth of the layer, at least a row. */
         double *u = field(&a, GP_FIELD_VX), *y = field(&a, GP_FIELD_Y), mean = 0, at = 0;
+        const int64_t rows = o->resolution >= 20 ? o->resolution / 20 : 1;
         int64_t i;
-        for (i = a.count - BOX_CELLS; i < a.count; ++i) {
-            mean += u[i] / BOX_CELLS;
-            at += bagnold_velocity(y[i], &b) / BOX_CELLS;
+        for (i = a.count - rows * BOX_CELLS; i < a.count; ++i) {
+            mean += u[i];
+            at += bagnold_velocity(y[i], &b);
         }
         printf("error               %.6g of the surface velocity\n", mean / at - 1);
         print_profile(&a, o, bagnold_velocity, &b, fastest);
@@ -497,6 +511,61 @@ static void couette_cell(const options *o) {
     gp_destroy(a.sim);
 }
 
+/* Reproducible numbers in [-1, 1). */
+static double scattered(uint64_t *state) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) / 4503599627370496.0 - 1;
+}
+
+/* The velocity gradient of a smooth field on a lattice jittered by 0.2 spacings, away from its edges. */
+static void gradient(const options *o) {
+    const int n = o->resolution;
+    const double spacing = 1.0 / n, k = 2 * pi;
+    const size_t count = (size_t)n * (size_t)n;
+    double *x = malloc(4 * count * sizeof *x), *y = x + count, *u = y + count, *v = u + count, *g;
+    double square = 0, norm = 0;
+    uint64_t random = 1;
+    gp_config config;
+    layer a;
+    size_t i;
+    if (!x)
+        exit(1);
+    for (i = 0; i < count; ++i) {
+        x[i] = ((double)(i % (size_t)n) + 0.5 + 0.2 * scattered(&random)) * spacing;
+        y[i] = ((double)(i / (size_t)n) + 0.5 + 0.2 * scattered(&random)) * spacing;
+        u[i] = sin(k * x[i]) * cos(k * y[i]);
+        v[i] = -cos(k * x[i]) * sin(k * y[i]);
+    }
+    CHECK(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
+    config.spacing = spacing;
+    config.gravity_y = 0;
+    config.sound_speed = 10;
+    config.collision_distance = 0;
+    config.time_step = 1e-12;
+    config.threads = 1;
+    if (o->horizon > 0)
+        config.horizon = o->horizon;
+    CHECK(gp_create(&config, &a.sim));
+    CHECK(gp_add_particles(a.sim, 0, (int64_t)count, x, y, u, v, NULL));
+    CHECK(gp_step(a.sim, 1));
+    a.count = (int64_t)count;
+    g = field(&a, GP_FIELD_SHEAR_RATE);
+    for (i = 0; i < count; ++i) {
+        const double edge = fmin(fmin(x[i], 1 - x[i]), fmin(y[i], 1 - y[i]));
+        /* D = diag(1, -1) k cos cos: its |gamma| = sqrt(D:D / 2). */
+        const double exact = k * fabs(cos(k * x[i]) * cos(k * y[i]));
+        if (edge < config.horizon * spacing)
+            continue;
+        square += (g[i] - exact) * (g[i] - exact);
+        norm += exact * exact;
+    }
+    printf("error               %.6g in the norm L2\n", sqrt(square / norm));
+    print_cost(a.sim);
+    gp_destroy(a.sim);
+    free(x);
+    free(g);
+}
+
 /* A layer on an incline below the angle of friction stays, above it flows. */
 static void slope(const options *o) {
     const double h = 0.04, angle = (o->angle > 0 ? o->angle : 20) * pi / 180, end = o->end > 0 ? o->end : 2;
@@ -514,7 +583,7 @@ static void slope(const options *o) {
                      0,
                      0};
     layer a = make_layer(o, &s);
-    double *u, moved = 0, last = 0;
+    double *u, moved = 0, half_way = 0, last = 0;
     int k, n;
     const int pieces = 200;
     /* Displacement of the surface: positions wrap, velocities do not. */
@@ -525,6 +594,8 @@ static void slope(const options *o) {
         for (n = 0; n < BOX_CELLS; ++n)
             mean += u[a.count - 1 - n] / BOX_CELLS;
         moved += 0.5 * (mean + last) * end / pieces;
+        if (2 * k == pieces)
+            half_way = moved;
         last = mean;
         free(u);
     }
@@ -533,7 +604,8 @@ static void slope(const options *o) {
     printf("kinetic             %.6g of the initial energy\n",
            state_of(a.sim).kinetic / (density * gravity * h * h / 2 * BOX_CELLS * a.spacing));
     printf("at_rest             %d\n", (int)state_of(a.sim).at_rest);
-    printf("error               %.6g spacings\n", fabs(moved) / a.spacing);
+    /* Gravity sets in at once and shears the layer a little: what counts is the second half of the time. */
+    printf("error               %.6g spacings in the second half\n", fabs(moved - half_way) / a.spacing);
     print_cost(a.sim);
     gp_destroy(a.sim);
 }
@@ -541,18 +613,19 @@ static void slope(const options *o) {
 /* --------------------------------------------------------------------------------------------------- main */
 
 static void usage(FILE *out) {
-    fprintf(out, "usage: exact CASE [options]\n\n"
-                 "cases: hydrostatic, shear_box, bagnold, bagnold_startup, chute, couette_cell, slope\n\n"
-                 "options [default]\n"
-                 "  --resolution N    particles over the height of the scene [20]\n"
-                 "  --horizon K       in spacings [the scheme's own]\n"
-                 "  --cfl C           time step over spacing / wave speed [the scheme's own]\n"
-                 "  --sound-speed M   over the largest flow speed; hydrostatic: m/s [10]\n"
-                 "  --end SECONDS     end of the run [depends on the case]\n"
-                 "  --angle DEGREES   of the incline [bagnold 26, slope 20]\n"
-                 "  --penalty, --diffusion, --viscosity X\n"
-                 "                    of the scheme [its own]\n"
-                 "  --profile 1       prints rows of y, velocity, exact velocity [0]\n");
+    fprintf(out,
+            "usage: exact CASE [options]\n\n"
+            "cases: hydrostatic, shear_box, bagnold, bagnold_startup, chute, couette_cell, slope,\n       gradient\n\n"
+            "options [default]\n"
+            "  --resolution N    particles over the height of the scene [20]\n"
+            "  --horizon K       in spacings [the scheme's own]\n"
+            "  --cfl C           time step over spacing / wave speed [the scheme's own]\n"
+            "  --sound-speed M   over the largest flow speed; hydrostatic: m/s [10]\n"
+            "  --end SECONDS     end of the run [depends on the case]\n"
+            "  --angle DEGREES   of the incline [bagnold 26, slope 20]\n"
+            "  --penalty, --diffusion, --viscosity X\n"
+            "                    of the scheme [its own]\n"
+            "  --profile 1       prints rows of y, velocity, exact velocity [0]\n");
 }
 
 int main(int argc, char **argv) {
@@ -611,6 +684,8 @@ int main(int argc, char **argv) {
         couette_cell(&o);
     else if (strcmp(argv[1], "slope") == 0)
         slope(&o);
+    else if (strcmp(argv[1], "gradient") == 0)
+        gradient(&o);
     else {
         fprintf(stderr, "exact: %s: unknown case (see --help)\n", argv[1]);
         return 2;
