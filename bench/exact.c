@@ -220,7 +220,8 @@ static void hydrostatic(const options *o) {
     gp_plate plate;
     layer a;
     double *y, *p, square = 0, base = 0;
-    int64_t i, n_base = 0;
+    double n_base = 0;
+    int64_t i;
     int k;
     CHECK(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
     a.spacing = config.spacing = height / o->resolution;
@@ -250,13 +251,13 @@ static void hydrostatic(const options *o) {
         square += pow(p[i] - density * gravity * (height - y[i]), 2);
         if (y[i] < a.spacing) {
             base += p[i] + density * gravity * y[i];
-            ++n_base;
+            n_base += 1;
         }
     }
     printf("pressure_base       %.6g Pa, exact %.6g\n", base / n_base, density * gravity * height);
     printf("error_base          %.6g\n", base / n_base / (density * gravity * height) - 1);
     printf("error               %.6g rms over the base pressure\n",
-           sqrt(square / a.count) / (density * gravity * height));
+           sqrt(square / (double)a.count) / (density * gravity * height));
     printf("at_rest             %d\n", (int)state_of(a.sim).at_rest);
     print_cost(a.sim);
     gp_destroy(a.sim);
@@ -300,8 +301,8 @@ static void shear_box(const options *o) {
     p = field(&a, GP_FIELD_PRESSURE);
     g = field(&a, GP_FIELD_SHEAR_RATE);
     for (i = from; i < to; ++i) {
-        tau_over_p += sxy[i] / p[i] / (to - from);
-        bulk += friction(&l, 2 * l.d * g[i] / sqrt(p[i] / grain_density)) / (to - from);
+        tau_over_p += sxy[i] / p[i] / (double)(to - from);
+        bulk += friction(&l, 2 * l.d * g[i] / sqrt(p[i] / grain_density)) / (double)(to - from);
     }
     printf("inertial_number     %.6g\n", inertial);
     printf("mu                  %.6g exact, %.6g on the floor, %.6g inside at the local I %.6g\n", mu, fx / fabs(fy),
@@ -504,7 +505,7 @@ static void couette_cell(const options *o) {
         const double end = o->end > 0 ? o->end : 2;
         fx = mean_plate_force(&a, &fy, 0.5 * end, end);
         printf("shear_stress        %.6g Pa, exact %.6g\n", fx / (BOX_CELLS * a.spacing), c.tau);
-        printf("error_stress        %.6g\n", fx / (BOX_CELLS * a.spacing) / c.tau - 1);
+        printf("error_stress        %.6g of the shear stress\n", fx / (BOX_CELLS * a.spacing) / c.tau - 1);
     }
     print_profile(&a, o, couette_velocity, &c, c.lid);
     print_cost(a.sim);

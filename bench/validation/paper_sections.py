@@ -192,6 +192,49 @@ def resolution(results: Collection) -> str:
     )
 
 
+def side_walls(results: Collection) -> str:
+    rows = []
+    for ratio in runs.SIDE_WALLS:
+        result = results(runs.side_walls(ratio))
+        rows.append(
+            [
+                f"{ratio:g}",
+                f"{ratio * runs.CHANNEL_WIDTH:.3g}",
+                fixed(peak(result) if result else None),
+                percent(peak(result) if result else None, ref.EXPERIMENT_PEAK),
+                fixed(run_out_at(result, 0.42) if result else None, 2),
+                cpu(result.cpu if result else None),
+            ]
+        )
+    return table(
+        [
+            "friction / width, 1/m",
+            f"coefficient, {runs.CHANNEL_WIDTH:g} m apart",
+            "peak y/L at 0.42 s",
+            "off the experiment",
+            "run-out at 0.42 s",
+            "CPU s",
+        ],
+        rows,
+    )
+
+
+def raised(results: Collection) -> str:
+    """Raised friction, instant release, by resolution."""
+    found = [(r, results(runs.raised_run(r))) for r in runs.RESOLUTIONS]
+    rows = [
+        [
+            str(r),
+            fixed(peak(result) if result else None),
+            percent(peak(result) if result else None, ref.EXPERIMENT_PEAK),
+            fixed(run_out_at(result, 0.42) if result else None, 2),
+            cpu(result.cpu if result else None),
+        ]
+        for r, result in found
+    ]
+    return table(["L/dl", "peak y/L at 0.42 s", "off the experiment", "run-out at 0.42 s", "CPU s"], rows)
+
+
 def lift(results: Collection) -> str:
     rows = []
     for t in runs.LIFT_TIMES:

@@ -193,16 +193,16 @@ def run_time(path: Path, results: Collection) -> bool:
 
 def exact(path: Path, results: Collection) -> bool:
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5.2), layout="constrained")
-    colors = plt.get_cmap("tab10").colors
+    colors = plt.get_cmap("tab20").colors
     drawn = False
-    for color, (case, (all_r, _)) in zip(colors, runs.EXACT_CASES.items()):
+    for color, (case, (_, _, all_r, _)) in zip(colors, runs.EXACT_CASES.items()):
         found = [(r, results(runs.exact(case, r))) for r in all_r]
         found = [(r, result) for r, result in found if result and exact_error(result)[0] > 0]
         if not found:
             continue
         drawn = True
         errors = [exact_error(result)[0] for _, result in found]
-        left.plot([r for r, _ in found], errors, "o-", color=color, ms=7, label=case.replace("_", " "))
+        left.plot([r for r, _ in found], errors, "o-", color=color, ms=7, label=case)
         right.plot([max(result.cpu, 1e-3) for _, result in found], errors, "o-", color=color, ms=7)
     if not drawn:
         plt.close(figure)

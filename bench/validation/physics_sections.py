@@ -189,7 +189,7 @@ def couette(results: Collection) -> str:
 def exact(results: Collection) -> str:
     """Error, order and cost by resolution."""
     rows = []
-    for case, (all_r, _) in runs.EXACT_CASES.items():
+    for case, (_, _, all_r, _) in runs.EXACT_CASES.items():
         before: tuple[int, float] | None = None
         for r in all_r:
             run = runs.exact(case, r)
@@ -200,7 +200,7 @@ def exact(results: Collection) -> str:
                 order = math.log(before[1] / error) / math.log(r / before[0])
             rows.append(
                 [
-                    case.replace("_", " "),
+                    case,
                     str(r),
                     significant(error),
                     meaning,

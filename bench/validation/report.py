@@ -86,6 +86,21 @@ Peak y/L of a = 1.25, L/dl = 32:
 
 {figure("run_time", drawn, RUN_TIME_CAPTION)}
 
+### Raised friction, gates gone at once
+
+{paper.raised(collection)}
+
+### Side walls
+
+The friction of a channel's walls per volume is 2 mu_w p / W: what counts is mu_w / W. At 1.8 per metre, the channel of
+Mangeney et al. (2010) with 0.1 m and 0.18, the walls do next to nothing to this low column: the layer that flows last is
+thin, and its pressure on the walls low. The paper does not give the width of its channel. The experiment's peak asks for
+about 12 per metre: a channel ten grains wide ({runs.CHANNEL_WIDTH:g} m) with the friction of glass on Plexiglas
+({runs.CHANNEL_FRICTION:g}). That is a plausible channel, not a known one; "side walls" in this report stands for it.
+Instant release.
+
+{paper.side_walls(collection)}
+
 ### Lifting of the gates
 
 The gates' measured motion is published as a figure only; here they rise with uniform acceleration.

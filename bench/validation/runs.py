@@ -9,10 +9,12 @@ from dataclasses import dataclass
 
 import references as ref
 
-# Side walls: glass plates 0.1 m apart, as the channel of Mangeney et al. (2010), and the friction of glass beads on
-# glass that Jop, Forterre & Pouliquen (2005) found, tan 10.4 degrees. Both from memory: not checked yet.
-CHANNEL_WIDTH = 0.10  # m
-CHANNEL_FRICTION = 0.18
+# Side walls. What counts is channel_friction / channel_width. The paper does not give the width of its channel, so the study
+# SIDE_WALLS varies the ratio. "walls" is a channel ten grains wide whose walls have the friction of glass on Plexiglas,
+# tan 13.5 degrees (Jop, Forterre & Pouliquen 2005 found tan 10.4 degrees for glass on glass).
+CHANNEL_WIDTH = 0.02  # m
+CHANNEL_FRICTION = 0.24
+SIDE_WALLS = (1.8, 4.0, 8.0, 12.0, 16.0)  # 1/m; 1.8: the channel of Mangeney et al. (2010), 0.1 m, and 0.18
 
 GRAVITY = 9.81  # m/s2
 # Particle-steps per CPU second of one core, for the estimates of the remaining time only.
@@ -75,15 +77,20 @@ ASPECTS = (0.5, 1.0, 1.42, 2.0, 3.0, 5.0, 7.0, 10.0)
 BOTH_SIDE_TIMES = "0.12,0.129,0.189,0.22,0.42,1,2,3"
 CODE_RESOLUTIONS = (16, 32, 64, 128)
 CONTACT_SPACINGS = 32  # spacings in the height of the contact-dynamics columns
-EXACT_CASES = {  # resolutions, and a rough cost of the coarsest in CPU s
-    "hydrostatic": ((10, 20, 40, 80), 0.15),
-    "shear_box": ((10, 20, 40), 1.2),
-    "bagnold": ((10, 20, 40), 2.0),
-    "bagnold_startup": ((10, 20, 40, 80), 0.1),
-    "chute": ((10, 20, 40), 0.6),
-    "couette_cell": ((15, 30, 60), 4.0),
-    "slope": ((10, 20, 40), 0.4),
-    "gradient": ((10, 20, 40, 80), 0.1),
+# Case by its name in the report: what the program calls it, more options, resolutions, cost of the coarsest in CPU s.
+EXACT_CASES: dict[str, tuple[str, tuple[str, ...], tuple[int, ...], float]] = {
+    "operators, jittered lattice": ("gradient", (), (20, 40, 80, 160), 0.05),
+    "hydrostatic": ("hydrostatic", (), (10, 20, 40, 80), 0.15),
+    "shear box": ("shear_box", (), (10, 20, 40), 1.0),
+    "Bagnold, c0 = 10 u": ("bagnold", ("--end", "1.5"), (10, 20, 40), 0.8),
+    "Bagnold, c0 = 20 u": ("bagnold", ("--end", "1.5", "--sound-speed", "20"), (10, 20, 40), 1.6),
+    "Bagnold start-up, c0 = 10 u": ("bagnold_startup", (), (20, 40), 0.3),
+    "Bagnold start-up, c0 = 40 u": ("bagnold_startup", ("--sound-speed", "40"), (20, 40), 1.2),
+    "chute": ("chute", (), (20, 40, 80), 1.4),
+    "chute, horizon 2.5": ("chute", ("--horizon", "2.5"), (20, 40, 80), 0.7),
+    "Couette, Cawthorn's cell": ("couette_cell", (), (15, 30, 60), 3.0),
+    "slope of 20 degrees": ("slope", ("--end", "6"), (10, 20, 40), 1.5),
+    "slope of 20 degrees, 60 s": ("slope", ("--end", "60"), (16,), 25.0),
 }
 COUETTE_CASES = (1, 2, 3)
 
@@ -249,12 +256,27 @@ def couette(case: int) -> Run:
 
 def exact(case: str, resolution: int) -> Run:
     """Layers of a fixed number of columns: particles and steps both grow with the resolution."""
-    resolutions, cost = EXACT_CASES[case]
+    name, more, resolutions, cost = EXACT_CASES[case]
+    options = "".join(f"_{text.strip('-')}" for text in more)
     return Run(
-        f"exact_{case}_{resolution}",
+        f"exact_{name}{options}_{resolution}",
         "exact",
-        (case, "--resolution", str(resolution)),
+        (name, "--resolution", str(resolution), *more),
         cost * (resolution / resolutions[0]) ** 2,
+    )
+
+
+def side_walls(ratio: float) -> Run:
+    """Default scheme in a channel: a = 1.25, instant release, friction over width in 1/m."""
+    spacing = ref.WIDTH / 32
+    return Run(
+        f"side_walls_{ratio:g}",
+        "scene",
+        (
+            "both_side", "--resolution", "32", "--lift-time", "0", "--end", "0.5", "--times", "0.42",
+            "--channel-width", f"{CHANNEL_WIDTH}", "--channel-friction", f"{ratio * CHANNEL_WIDTH:g}",
+        ),
+        collapse_cost(0.05 * ref.WIDTH, 0.05, spacing, 0.5),
     )
 
 
@@ -310,6 +332,11 @@ def horizon_length_run(scheme: str, resolution: int) -> Run:
     return both_side(scheme, resolution=resolution, end=0.45, horizon_length=HORIZON_LENGTH)
 
 
+def raised_run(resolution: int) -> Run:
+    """Raised friction, gates gone at once."""
+    return both_side("raised", resolution=resolution, end=0.6, lift_time=0.0)
+
+
 def lift_run(lift_time: float) -> Run:
     return both_side("default", lift_time=lift_time)
 
@@ -328,12 +355,14 @@ def studies() -> dict[str, list[Run]]:
             horizon_length_run(scheme, r) for scheme, all_r in HORIZON_LENGTH_STUDY.items() for r in all_r
         ],
         "resolution": [resolution_run(scheme, r) for scheme, all_r in RESOLUTION_STUDY.items() for r in all_r],
+        "side_walls": [side_walls(ratio) for ratio in SIDE_WALLS],
         "lift": [lift_run(t) for t in LIFT_TIMES],
+        "raised": [raised_run(r) for r in RESOLUTIONS],
         "codes": [code_run(r) for r in CODE_RESOLUTIONS],
         "scaling": [scaling(a, sides) for sides in (2, 1) for a in ASPECTS],
         "contact_dynamics": [contact_dynamics(a) for a in ref.CONTACT_DYNAMICS],
         "couette": [couette(case) for case in COUETTE_CASES],
-        "exact": [exact(case, r) for case, (resolutions, _) in EXACT_CASES.items() for r in resolutions],
+        "exact": [exact(case, r) for case, (_, _, resolutions, _) in EXACT_CASES.items() for r in resolutions],
     }
 
 
