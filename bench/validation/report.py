@@ -54,7 +54,8 @@ def compose(collection: Collection, drawn: set[str]) -> str:
 Jin, Lu, Tai & Xu (2021) print few numbers; most of their comparisons are figures, so that only these can be set beside
 ours. "As printed" is their scheme with the factor 2 of their equation 3.12, "factor 1" the same with μ(I) p as the
 stress of simple shear. The default scheme has no side walls; "side walls" has the friction of a channel's walls
-({runs.CHANNEL_WIDTH:g} m apart, coefficient {runs.CHANNEL_FRICTION:g}), "raised friction" has
+({runs.CHANNEL_WIDTH:g} m apart, coefficient {runs.CHANNEL_FRICTION:g}; for the one-sided column those of its own
+channel, {runs.SIDE_CHANNEL[0]:g} m and {runs.SIDE_CHANNEL[1]:g}), "raised friction" has
 {ref.RAISED_MU_S_DEGREES:g}° and {ref.RAISED_MU_2_DEGREES:g}° in place of 21° and 32°
 ({ref.IONESCU}).
 The gates clear their columns in {runs.DEFAULT_LIFT_TIME:g} s: the paper gives their motion as a figure only. CPU s are

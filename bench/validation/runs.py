@@ -14,6 +14,7 @@ import references as ref
 # tan 13.5 degrees (Jop, Forterre & Pouliquen 2005 found tan 10.4 degrees for glass on glass).
 CHANNEL_WIDTH = 0.02  # m
 CHANNEL_FRICTION = 0.24
+SIDE_CHANNEL = (0.10, 0.18)  # m, -: of the one-sided experiment (Mangeney et al. 2010, Ionescu et al. 2015)
 SIDE_WALLS = (1.8, 4.0, 8.0, 12.0, 16.0)  # 1/m; 1.8: the channel of Mangeney et al. (2010), 0.1 m, and 0.18
 
 GRAVITY = 9.81  # m/s2
@@ -162,12 +163,16 @@ def both_side(
 
 
 def one_side(scheme: str) -> Run:
-    """Section 5.2 of the paper, with height and length as its experiment had them."""
+    """Section 5.2 of the paper, with height and length as its experiment had them. Its channel is known (SIDE_CHANNEL)."""
     s = SCHEMES[scheme]
+    options, name = s.options, scheme
+    if scheme == "walls":
+        options = ("--channel-width", f"{SIDE_CHANNEL[0]}", "--channel-friction", f"{SIDE_CHANNEL[1]}")
+        name = "own_walls"
     return Run(
-        f"one_side_{scheme}",
+        f"one_side_{name}",
         "scene",
-        ("one_side", "--end", "1.02", "--times", "0.18,0.3,0.42,1.02", *s.options),
+        ("one_side", "--end", "1.02", "--times", "0.18,0.3,0.42,1.02", *options),
         collapse_cost(0.14 * 0.20, 0.14, 0.0025, 1.02, s.steps),
     )
 
