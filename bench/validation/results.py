@@ -13,7 +13,7 @@ from runs import Run
 
 ROOT = Path(__file__).resolve().parents[2]
 DIRECTORY = ROOT / "results" / "validation"
-FORMAT = 2  # of the files: those of another one are as if they were not there
+FORMAT = 3  # of the files: those of another one are as if they were not there
 TABLES = ("series", "surface", "section", "interface")
 
 
@@ -22,6 +22,7 @@ class Result:
 
     def __init__(self, data: dict[str, Any]):
         self.name: str = data["name"]
+        self.program: str = data["program"]
         self.source: str = data["source"]
         self.commit: str = data["commit"]
         self.output: str = data["output"]

@@ -21,10 +21,18 @@ REFUSED, UNSUPPORTED = 2, 3
 QUICK = 15.0  # CPU s, estimated: what a quick pass leaves out
 
 
-def source_hash(root: Path) -> str:
-    """Of all that the numbers depend on: library, bench programs, and what these share with the examples."""
+LIBRARY_SOURCES = ("include/**/*.h", "src/**/*.?pp")
+PROGRAM_SOURCES = {
+    "scene": ("bench/scene.c", "bench/options.[ch]", "bench/record.[ch]", "examples/c/example.[ch]"),
+    "couette": ("examples/c/couette.c", "examples/c/example.[ch]"),
+    "exact": ("bench/exact.c",),
+}
+
+
+def source_hash(root: Path, program: str) -> str:
+    """Of all that a program's numbers depend on: the library's sources and its own."""
     digest = hashlib.sha256()
-    for pattern in ("include/**/*.h", "src/**/*.?pp", "bench/*.[ch]", "examples/c/*.[ch]"):
+    for pattern in LIBRARY_SOURCES + PROGRAM_SOURCES[program]:
         for path in sorted(root.glob(pattern)):
             digest.update(str(path.relative_to(root)).encode())
             digest.update(path.read_bytes())
@@ -128,13 +136,18 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=2, help="runs at a time [2]")
     arguments = parser.parse_args()
 
-    source, commit = source_hash(results.ROOT), commit_of(results.ROOT)
+    sources = {program: source_hash(results.ROOT, program) for program in PROGRAM_SOURCES}
+    commit = commit_of(results.ROOT)
     wanted = [
         run
         for run in all_runs()
         if (not arguments.quick or run.cost <= QUICK) and (not arguments.only or arguments.only in run.name)
     ]
-    missing = [run for run in wanted if not is_current(run, arguments.results, source, arguments.accept_older)]
+    missing = [
+        run
+        for run in wanted
+        if not is_current(run, arguments.results, sources[run.program], arguments.accept_older)
+    ]
     print(
         f"{len(wanted)} runs, {len(wanted) - len(missing)} of them done before; {len(missing)} to do, "
         f"about {sum(run.cost for run in missing) / arguments.workers / 60:.0f} min",
@@ -145,7 +158,8 @@ def main() -> int:
 
     def work(run: Run) -> None:
         data = execute(run, arguments.build)
-        results.save(run, {**data, "source": source, "commit": commit}, arguments.results)
+        origin = {"program": run.program, "source": sources[run.program], "commit": commit}
+        results.save(run, {**data, **origin}, arguments.results)
         progress.finished(run, data)
         counts[data["status"]] = counts.get(data["status"], 0) + 1
 
