@@ -77,7 +77,7 @@ DEFAULT_LIFT_TIME = 0.1
 ASPECTS = (0.5, 1.0, 1.42, 2.0, 3.0, 5.0, 7.0, 10.0)
 BOTH_SIDE_TIMES = "0.12,0.129,0.189,0.22,0.42,1,2,3"
 CODE_RESOLUTIONS = (16, 32, 64, 128)
-CONTACT_SPACINGS = 32  # spacings in the height of the contact-dynamics columns
+CONTACT_SPACINGS = 64  # spacings in the height of the contact-dynamics columns
 # Case by its name in the report: what the program calls it, more options, resolutions, cost of the coarsest in CPU s.
 EXACT_CASES: dict[str, tuple[str, tuple[str, ...], tuple[int, ...], float]] = {
     "operators, jittered lattice": ("gradient", (), (20, 40, 80, 160), 0.05),
