@@ -307,7 +307,7 @@ static void shear_box(const options *o) {
     printf("inertial_number     %.6g\n", inertial);
     printf("mu                  %.6g exact, %.6g on the floor, %.6g inside at the local I %.6g\n", mu, fx / fabs(fy),
            tau_over_p, bulk);
-    printf("error               %.6g\n", fx / fabs(fy) / mu - 1);
+    printf("error               %.6g of mu on the floor\n", fx / fabs(fy) / mu - 1);
     printf("error_inside        %.6g\n", tau_over_p / bulk - 1);
     printf("error_load          %.6g\n", fabs(fy) / (load * BOX_CELLS * a.spacing) - 1);
     print_profile(&a, o, linear, &data, rate * thickness / 2);
@@ -451,7 +451,7 @@ static void chute_flow(const options *o) {
         printf("error_plug_width    %.6g spacings\n", (plug - lo) / a.spacing);
     }
     printf("plug_velocity       %.6g m/s, exact %.6g\n", speed, fastest);
-    printf("error               %.6g\n", speed / fastest - 1);
+    printf("error               %.6g of the speed of the plug\n", speed / fastest - 1);
     print_profile(&a, o, chute_velocity, &c, fastest);
     print_cost(a.sim);
     gp_destroy(a.sim);

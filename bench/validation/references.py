@@ -116,6 +116,7 @@ INDEPENDENT_CODES = [
     ("LAMMPS granular", "DEM, 1073 discs", None, 21.0, 0.427, 0.427, 2.30, True),
     ("Matter, friction doubled", "MPM, return map", 32, None, 0.545, 0.545, 0.96, False),
 ]
+CODES_RUN_OUT = (1.9, 2.5)  # of the same
 CODES_PEAK_BAND = (0.409, 0.427)  # of those with the friction as given
 
 # -------------------------------------------------------------------------------------------------------- Couette
