@@ -220,9 +220,10 @@ def disagreements(results: Collection) -> list[str]:
         coarse = [f"{run_out_at(r, 0.42):.2f} at L/dl = {n}" for n in (32, 64) if (r := results(runs.code_run(n)))]
         found.append(
             f"Default, gates gone at once, L/dl = 128: the run-out at 0.42 s is {run_out_at(fine, 0.42):.2f} "
-            f"({', '.join(coarse)}), other codes have {ref.CODES_RUN_OUT[0]:g} to {ref.CODES_RUN_OUT[1]:g}: the front is "
-            "a layer of single particles, which bears next to no pressure and so no friction, and runs on; the finer "
-            "the particles, the thinner the layer."
+            f"({', '.join(coarse)}), other codes have {ref.CODES_RUN_OUT[0]:g} to {ref.CODES_RUN_OUT[1]:g}: the front "
+            "thins out to a single layer of particles, here a third of a grain, and the finer they are the earlier the "
+            "outermost of them left the column. A single layer brakes as Coulomb friction asks (it is not the floor that "
+            "lets it go); fronts at 0.05 H0, as with the discs, do not show this."
         )
     wall = results(runs.main_run("one_side", "default"))
     if wall and abs(wall.summary["axis_height"] / ref.EXPERIMENT_WALL_HEIGHT - 1) > CLOSE:

@@ -170,3 +170,24 @@ TEST(Plates, FastPlateIsNotPassedThrough) {
     for (double y : sim.field(GP_FIELD_Y))
         EXPECT_GT(y, 0);
 }
+
+TEST(RoughFloor, BrakesASingleLayerByTheLawsFriction) {
+    // A front thins out to a single layer. Thrown along the floor at u, it stops between u^2/(2 mu_2 g) and u^2/(2 mu_s g).
+    const double speed = 0.5;
+    Sim sim(config(0.0025));
+    sim.column(0, 0, 0.05, 0.0025, 0, speed);
+    sim.add(floor_at(0, -0.2, 0.4));
+    const auto centre = [&] {
+        double sum = 0;
+        const std::vector<double> x = sim.field(GP_FIELD_X);
+        for (double value : x)
+            sum += value / static_cast<double>(x.size());
+        return sum;
+    };
+    const double start = centre();
+    sim.run(0.3);
+    const double way = centre() - start, unit = speed * speed / (2 * 9.81);
+    EXPECT_GT(way, unit / std::tan(degrees(32)));
+    EXPECT_LT(way, unit / std::tan(degrees(21)));
+    EXPECT_LT(sim.state().rms_speed, 1e-3 * speed);
+}
