@@ -28,6 +28,14 @@ GP_INLINE double number_density_sum(const int32_t *__restrict row, int64_t n, do
 // sum_j (u_j - u_i) (x) r_ij w / r^2, 1/s.
 struct MpsGradient {
     double xx = 0, xy = 0, yx = 0, yy = 0;
+
+    GP_INLINE MpsGradient &operator+=(const MpsGradient &other) {
+        xx += other.xx;
+        xy += other.xy;
+        yx += other.yx;
+        yy += other.yy;
+        return *this;
+    }
 };
 
 GP_INLINE MpsGradient mps_gradient_sum(const int32_t *__restrict row, int64_t n, double xi, double yi, double ui,

@@ -17,6 +17,17 @@ namespace gp {
 struct Moments {
     double kxx = 0, kxy = 0, kyy = 0;
     double mxx = 0, mxy = 0, myx = 0, myy = 0;
+
+    GP_INLINE Moments &operator+=(const Moments &other) {
+        kxx += other.kxx;
+        kxy += other.kxy;
+        kyy += other.kyy;
+        mxx += other.mxx;
+        mxy += other.mxy;
+        myx += other.myx;
+        myy += other.myy;
+        return *this;
+    }
 };
 
 // Adds the neighbours row[0 .. n) with the given positions and velocities. Neighbours past the radius have weight 0.

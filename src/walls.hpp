@@ -94,6 +94,22 @@ struct Walls {
         return point;
     }
 
+    // The loads are those of one step: the stage that finds the forces clears them first.
+    void clear_loads() {
+        for (Plate &plate : plates) {
+            plate.force = Vector::Zero();
+            plate.torque = 0;
+        }
+    }
+
+    // The material's force (N/m) on a plate, acting at a point.
+    void add_load(int32_t id, const Vector &at, const Vector &force) {
+        Plate &plate = plates[id];
+        const Vector &t = plate.segment().tangent;
+        plate.force += force;
+        plate.torque += plate.segment().along(nearest_image(plate, at)) * (t.x() * force.y() - t.y() * force.x());
+    }
+
     bool in_reach() const { return !contacts.empty(); }
     int64_t bytes() const;
 

@@ -66,15 +66,11 @@ template <bool Adjoint> void close_books(World &world) {
     // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface.
     double contact_power = 0, plate_power = 0;
     for (const Contact &contact : world.walls.contacts) {
-        Plate &plate = world.walls.plates[contact.plate];
         const int64_t i = contact.particle;
         const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
-        plate.force += reaction;
-        const Vector &t = plate.segment().tangent;
-        plate.torque += plate.segment().along(world.walls.nearest_image(plate, {p.x[i], p.y[i]})) *
-                        (t.x() * reaction.y() - t.y() * reaction.x());
+        world.walls.add_load(contact.plate, {p.x[i], p.y[i]}, reaction);
         contact_power += p.volume * (contact.ghost_power + contact.power);
-        plate_power -= reaction.dot(plate.velocity());
+        plate_power -= reaction.dot(world.walls.plates[contact.plate].velocity());
     }
     for (Plate &plate : world.walls.plates) {
         plate.impulse += dt * plate.force;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "parallel.hpp"
+#include "stages/push.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -36,8 +37,7 @@ void collide(World &world) {
     Particles &p = world.particles;
     const double distance = world.scene->config().collision_distance * world.constants.spacing;
     const double dt = world.clock.dt;
-    world.images.copy_positions(p);
-    world.images.copy({&p.vx, &p.vy});
+    update_images(world);
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         int64_t colliding = 0;
         for (int64_t i = begin; i < end; ++i) {
@@ -76,16 +76,7 @@ void collide(World &world) {
         for (int64_t i = begin; i < end; ++i) {
             if (world.colliding[i] == 0)
                 continue;
-            const double du = p.cxx[i], dv = p.cxy[i];
-            // Less half the acceleration's share: see push() in wall_contact.cpp.
-            loss -= world.material_of(i).density *
-                    (du * (p.vx[i] + 0.5 * (du - dt * p.ax[i])) + dv * (p.vy[i] + 0.5 * (dv - dt * p.ay[i])));
-            p.vx[i] += du;
-            p.vy[i] += dv;
-            p.push_x[i] += du;
-            p.push_y[i] += dv;
-            p.x[i] += dt * du;
-            p.y[i] += dt * dv;
+            loss -= world.material_of(i).density * push_particle(p, i, p.cxx[i], p.cxy[i], dt);
         }
         world.sums[block].collision_loss = p.volume * loss;
     });

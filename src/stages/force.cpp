@@ -147,10 +147,7 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
 void force(World &world) {
     Particles &p = world.particles;
     Walls &walls = world.walls;
-    for (Plate &plate : walls.plates) {
-        plate.force = Vector::Zero();
-        plate.torque = 0;
-    }
+    walls.clear_loads();
     const Constants &c = world.constants;
     const View view{p.x.data(),
                     p.y.data(),

@@ -20,10 +20,19 @@ struct Points {
 // Neighbours' part and own part of the divergence: sum_j a_j r w / r^2 and sum_j r w / r^2.
 struct Sums {
     double ax = 0, ay = 0, x = 0, y = 0;
+
+    GP_INLINE Sums &operator+=(const Sums &other) {
+        ax += other.ax;
+        ay += other.ay;
+        x += other.x;
+        y += other.y;
+        return *this;
+    }
 };
 
-GP_INLINE Sums tensor_sums(const int32_t *__restrict row, int64_t n, double xi, double yi, const Points &at,
-                           double inverse_radius, double floor) {
+template <bool Tensor>
+GP_INLINE Sums sums_over(const int32_t *__restrict row, int64_t n, double xi, double yi, const Points &at,
+                         double inverse_radius, double floor) {
     const double *__restrict x = at.x, *__restrict y = at.y;
     const double *__restrict axx = at.axx, *__restrict axy = at.axy, *__restrict ayy = at.ayy;
     double ax = 0, ay = 0, sx = 0, sy = 0;
@@ -36,27 +45,13 @@ GP_INLINE Sums tensor_sums(const int32_t *__restrict row, int64_t n, double xi, 
         const double wx = w * dx, wy = w * dy;
         sx += wx;
         sy += wy;
-        ax += axx[j] * wx + axy[j] * wy;
-        ay += axy[j] * wx + ayy[j] * wy;
-    }
-    return {ax, ay, sx, sy};
-}
-
-GP_INLINE Sums scalar_sums(const int32_t *__restrict row, int64_t n, double xi, double yi, const Points &at,
-                           double inverse_radius, double floor) {
-    const double *__restrict x = at.x, *__restrict y = at.y, *__restrict a = at.axx;
-    double ax = 0, ay = 0, sx = 0, sy = 0;
-#pragma omp simd reduction(+ : ax, ay, sx, sy)
-    for (int64_t k = 0; k < n; ++k) {
-        const int32_t j = row[k];
-        const double dx = x[j] - xi, dy = y[j] - yi;
-        const double r2 = dx * dx + dy * dy;
-        const double w = weight(std::sqrt(r2), inverse_radius) / (r2 + floor);
-        const double wx = w * dx, wy = w * dy;
-        sx += wx;
-        sy += wy;
-        ax += a[j] * wx;
-        ay += a[j] * wy;
+        if constexpr (Tensor) {
+            ax += axx[j] * wx + axy[j] * wy;
+            ay += axy[j] * wx + ayy[j] * wy;
+        } else {
+            ax += axx[j] * wx;
+            ay += axx[j] * wy;
+        }
     }
     return {ax, ay, sx, sy};
 }
@@ -78,19 +73,16 @@ GP_MULTIVERSION void viscous_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = v.particles.x[i], yi = v.particles.y[i];
         const double xx = v.particles.axx[i], xy = v.particles.axy[i], yy = v.particles.ayy[i];
-        Sums sum = tensor_sums(v.index + v.start[i], v.start[i + 1] - v.start[i], xi, yi, v.particles, v.inverse_radius,
-                               v.floor);
+        Sums sum = sums_over<true>(v.index + v.start[i], v.start[i + 1] - v.start[i], xi, yi, v.particles,
+                                   v.inverse_radius, v.floor);
         if (v.contact_start)
             for (int32_t k = v.contact_start[i]; k < v.contact_start[i + 1]; ++k) {
                 Contact &contact = v.contacts[k];
-                const Sums s = tensor_sums(v.ghost_index + contact.begin, contact.end - contact.begin, xi, yi, v.ghosts,
-                                           v.inverse_radius, v.floor);
+                const Sums s = sums_over<true>(v.ghost_index + contact.begin, contact.end - contact.begin, xi, yi,
+                                               v.ghosts, v.inverse_radius, v.floor);
                 contact.force_x = v.scale * (s.ax + xx * s.x + xy * s.y);
                 contact.force_y = v.scale * (s.ay + xy * s.x + yy * s.y);
-                sum.ax += s.ax;
-                sum.ay += s.ay;
-                sum.x += s.x;
-                sum.y += s.y;
+                sum += s;
             }
         v.fx[i] = v.scale * (sum.ax - xx * sum.x - xy * sum.y);
         v.fy[i] = v.scale * (sum.ay - xy * sum.x - yy * sum.y);
@@ -100,19 +92,16 @@ GP_MULTIVERSION void viscous_rows(const View &v, int64_t begin, int64_t end) {
 GP_MULTIVERSION void pressure_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = v.particles.x[i], yi = v.particles.y[i], own = v.particles.axx[i];
-        Sums sum = scalar_sums(v.index + v.start[i], v.start[i + 1] - v.start[i], xi, yi, v.particles, v.inverse_radius,
-                               v.floor);
+        Sums sum = sums_over<false>(v.index + v.start[i], v.start[i + 1] - v.start[i], xi, yi, v.particles,
+                                    v.inverse_radius, v.floor);
         if (v.contact_start)
             for (int32_t k = v.contact_start[i]; k < v.contact_start[i + 1]; ++k) {
                 Contact &contact = v.contacts[k];
-                const Sums s = scalar_sums(v.ghost_index + contact.begin, contact.end - contact.begin, xi, yi, v.ghosts,
-                                           v.inverse_radius, v.floor);
+                const Sums s = sums_over<false>(v.ghost_index + contact.begin, contact.end - contact.begin, xi, yi,
+                                                v.ghosts, v.inverse_radius, v.floor);
                 contact.force_x -= v.scale * (s.ax + own * s.x);
                 contact.force_y -= v.scale * (s.ay + own * s.y);
-                sum.ax += s.ax;
-                sum.ay += s.ay;
-                sum.x += s.x;
-                sum.y += s.y;
+                sum += s;
             }
         v.fx[i] = -v.scale * (sum.ax - own * sum.x);
         v.fy[i] = -v.scale * (sum.ay - own * sum.y);
@@ -152,10 +141,7 @@ void divide_by_density(World &world, int64_t block, int64_t begin, int64_t end, 
 
 void viscous_force(World &world) {
     Particles &p = world.particles;
-    for (Plate &plate : world.walls.plates) {
-        plate.force = Vector::Zero();
-        plate.torque = 0;
-    }
+    world.walls.clear_loads();
     const View view =
         make_view(world, {p.x.data(), p.y.data(), p.sxx.data(), p.sxy.data(), p.syy.data()}, p.ax.data(), p.ay.data());
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {

@@ -1,5 +1,6 @@
 #include "operators.hpp"
 #include "parallel.hpp"
+#include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -7,12 +8,8 @@ namespace gp::stages {
 namespace {
 
 struct View {
+    Rows rows;
     const double *x, *y, *gx, *gy;
-    const int64_t *start;
-    const int32_t *index;
-    const int32_t *contact_start; // NULL where no plate is in reach
-    const Contact *contacts;
-    const int32_t *ghost_index;
     double inverse_radius, lattice_moment;
     double *ixx, *ixy, *iyy;
 };
@@ -37,13 +34,11 @@ GP_INLINE void add_shape(Moments &sum, const int32_t *__restrict row, int64_t n,
 GP_MULTIVERSION void shape_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         Moments m;
-        add_shape(m, v.index + v.start[i], v.start[i + 1] - v.start[i], v.x[i], v.y[i], v.x, v.y, v.inverse_radius);
-        if (v.contact_start)
-            for (int32_t k = v.contact_start[i]; k < v.contact_start[i + 1]; ++k) {
-                const Contact &contact = v.contacts[k];
-                add_shape(m, v.ghost_index + contact.begin, contact.end - contact.begin, v.x[i], v.y[i], v.gx, v.gy,
-                          v.inverse_radius);
-            }
+        add_shape(m, v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.x, v.y, v.inverse_radius);
+        for (const Contact &contact : v.rows.contacts_of(i)) {
+            add_shape(m, v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i], v.gx, v.gy,
+                      v.inverse_radius);
+        }
         const SymmetricTensor g = inverse_shape(m, v.lattice_moment);
         v.ixx[i] = g.xx;
         v.ixy[i] = g.xy;
@@ -56,15 +51,11 @@ GP_MULTIVERSION void shape_rows(const View &v, int64_t begin, int64_t end) {
 void shape_tensor(World &world) {
     Particles &p = world.particles;
     const Walls &w = world.walls;
-    const View view{p.x.data(),
+    const View view{Rows(world),
+                    p.x.data(),
                     p.y.data(),
                     w.ghost_x.data(),
                     w.ghost_y.data(),
-                    world.neighbors.start.data(),
-                    world.neighbors.index.data(),
-                    w.in_reach() ? w.contact_start.data() : nullptr,
-                    w.contacts.data(),
-                    w.ghost_of_contact.data(),
                     1.0 / world.constants.horizon,
                     world.constants.lattice.second_moment,
                     p.gxx.data(),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parallel.hpp"
+#include "stages/push.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -22,15 +23,7 @@ void side_wall_friction(World &world) {
             const double density = world.material_of(i).density;
             const double most = impulse * p.pressure[i] / density;
             const double share = most < speed ? most / speed : 1.0;
-            const double du = -share * p.vx[i], dv = -share * p.vy[i];
-            // Less half the acceleration's share: see push() in wall_contact.cpp.
-            loss -= density * (du * (p.vx[i] + 0.5 * (du - dt * p.ax[i])) + dv * (p.vy[i] + 0.5 * (dv - dt * p.ay[i])));
-            p.vx[i] += du;
-            p.vy[i] += dv;
-            p.push_x[i] += du;
-            p.push_y[i] += dv;
-            p.x[i] += dt * du;
-            p.y[i] += dt * dv;
+            loss -= density * push_particle(p, i, -share * p.vx[i], -share * p.vy[i], dt);
         }
         world.sums[block].side_walls = p.volume * loss;
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/push.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -16,27 +17,13 @@ constexpr double contact_distance = 0.4; // dl
 // Gives particle i the velocity change (relative to nothing: the lab's) that a plate causes in this step.
 void push(World &world, const Contact &contact, const Vector &change) {
     Particles &p = world.particles;
-    Plate &plate = world.walls.plates[contact.plate];
     const int64_t i = contact.particle;
     const double mass = world.material_of(i).density * p.volume;
-    // Forces are accounted for at the mean velocity of the step, pushes included. What that leaves for a push is its work
-    // at the mean of the velocities before and after it, less half the acceleration's share.
-    const Vector share = 0.5 * world.clock.dt * Vector(p.ax[i], p.ay[i]);
-    const Vector mean = Vector(p.vx[i], p.vy[i]) + 0.5 * change - share;
-    const Vector reaction = -mass / world.clock.dt * change;
-    plate.force += reaction;
-    const double lever = plate.segment().along(world.walls.nearest_image(plate, {p.x[i], p.y[i]}));
-    const Vector &t = plate.segment().tangent;
-    plate.torque += lever * (t.x() * reaction.y() - t.y() * reaction.x());
-    const double plate_power_on_material = mass * change.dot(plate.velocity());
+    world.walls.add_load(contact.plate, {p.x[i], p.y[i]}, -mass / world.clock.dt * change);
+    const double plate_power_on_material = mass * change.dot(world.walls.plates[contact.plate].velocity());
     world.ledger.plate_work -= plate_power_on_material;
-    world.ledger.dissipated += plate_power_on_material - mass * change.dot(mean);
-    p.vx[i] += change.x();
-    p.vy[i] += change.y();
-    p.push_x[i] += change.x();
-    p.push_y[i] += change.y();
-    p.x[i] += world.clock.dt * change.x();
-    p.y[i] += world.clock.dt * change.y();
+    world.ledger.dissipated +=
+        plate_power_on_material - mass * push_particle(p, i, change.x(), change.y(), world.clock.dt);
 }
 
 } // namespace

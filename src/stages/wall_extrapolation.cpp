@@ -37,7 +37,8 @@ void wall_velocity(World &world) {
             const Segment &s = plate.segment();
             const double shift = w.ghost_shift.empty() ? 0.0 : w.ghost_shift[k];
             double sw = 0, su = 0, sv = 0, sd = 0;
-            bool flows = true;
+            const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
+            bool flows = rough; // all that the ghost sees is at yield; matters to rough plates alone
             for (int64_t e = w.particles_of_ghost.start[k]; e < w.particles_of_ghost.start[k + 1]; ++e) {
                 const int32_t i = w.particles_of_ghost.index[e];
                 const double q = weight(std::hypot(p.x[i] - w.ghost_x[k], p.y[i] - w.ghost_y[k]), inverse_radius);
@@ -57,9 +58,7 @@ void wall_velocity(World &world) {
             const double normal = -std::min(ratio, steepest_normal) * s.normal.dot(relative);
             // Without friction of its own a plate passes no shear through its surface.
             const double tangential =
-                (plate.spec().friction != GP_WALL_NO_SLIP ? 1.0
-                                                          : -(flows ? ratio : std::min(ratio, steepest_tangential))) *
-                s.tangent.dot(relative);
+                (!rough ? 1.0 : -(flows ? ratio : std::min(ratio, steepest_tangential))) * s.tangent.dot(relative);
             const Vector ghost = plate.velocity() + normal * s.normal + tangential * s.tangent;
             w.ghost_vx[k] = ghost.x();
             w.ghost_vy[k] = ghost.y();

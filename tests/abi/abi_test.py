@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What compiled programs rely on: the header, the exported names, the layout of the structs.
 
-usage: abi_test.py CHECK --header GP_H --library LIBRARY --work DIRECTORY [--cc CC] [--cxx CXX] [--flags FLAGS]
+usage: abi_test.py CHECK --header GP_H --library LIBRARY [--work DIRECTORY] [--cc CC] [--cxx CXX] [--flags FLAGS]
                    [--pinned FILE [--update]]
 
 CHECK is one of
@@ -18,6 +18,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 failures = []
 
@@ -172,13 +173,15 @@ def main():
     parser.add_argument("check", choices=["header", "symbols", "link", "layout"])
     parser.add_argument("--header", required=True, type=os.path.abspath)
     parser.add_argument("--library", type=os.path.abspath)
-    parser.add_argument("--work", default=".", type=os.path.abspath)
+    parser.add_argument("--work", type=os.path.abspath, help="kept; else a directory that goes again")
     parser.add_argument("--cc", default="cc", type=shlex.split)
     parser.add_argument("--cxx", default="c++", type=shlex.split)
     parser.add_argument("--flags", default="", type=shlex.split)
     parser.add_argument("--pinned")
     parser.add_argument("--update", action="store_true")
     arguments = parser.parse_args()
+    scratch = tempfile.TemporaryDirectory()
+    arguments.work = arguments.work or scratch.name
     os.makedirs(arguments.work, exist_ok=True)
     {"header": check_header, "symbols": check_symbols, "link": check_link,
      "layout": check_layout}[arguments.check](arguments, Header(arguments.header))

@@ -1,0 +1,22 @@
+// What changes a particle's velocity after the step's forces have moved it: friction of side walls, collisions.
+#pragma once
+
+#include "world.hpp"
+
+namespace gp::stages {
+
+// Changes the velocity of particle i by (du, dv), and its position as if the step had had that velocity. Returns the work
+// per mass. Forces are accounted for at the mean velocity of the step, pushes included: what that leaves for a push is its
+// work at the mean of the velocities before and after it, less half the acceleration's share.
+inline double push_particle(Particles &p, int64_t i, double du, double dv, double dt) {
+    const double work = du * (p.vx[i] + 0.5 * (du - dt * p.ax[i])) + dv * (p.vy[i] + 0.5 * (dv - dt * p.ay[i]));
+    p.vx[i] += du;
+    p.vy[i] += dv;
+    p.push_x[i] += du;
+    p.push_y[i] += dv;
+    p.x[i] += dt * du;
+    p.y[i] += dt * dv;
+    return work;
+}
+
+} // namespace gp::stages

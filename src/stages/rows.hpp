@@ -1,0 +1,52 @@
+// One particle's neighbours as the pair loops see them: its row of the lists, then its rows of ghosts, plate by plate.
+#pragma once
+
+#include "world.hpp"
+
+namespace gp::stages {
+
+struct Rows {
+    const int64_t *start;
+    const int32_t *index;
+    const int32_t *contact_start; // NULL where no plate is in reach
+    const Contact *contacts;
+    const int32_t *ghost_index;
+
+    explicit Rows(const World &world)
+        : start(world.neighbors.start.data()), index(world.neighbors.index.data()),
+          contact_start(world.walls.in_reach() ? world.walls.contact_start.data() : nullptr),
+          contacts(world.walls.contacts.data()), ghost_index(world.walls.ghost_of_contact.data()) {}
+
+    GP_INLINE const int32_t *row(int64_t i) const { return index + start[i]; }
+    GP_INLINE int64_t count(int64_t i) const { return start[i + 1] - start[i]; }
+
+    // The plates that particle i sees: none, or a run of contacts. A loop and not a callback, so that its body is compiled
+    // for the instruction set of the function that it stands in.
+    struct Run {
+        const Contact *first, *last;
+        const Contact *begin() const { return first; }
+        const Contact *end() const { return last; }
+    };
+    GP_INLINE Run contacts_of(int64_t i) const {
+        if (!contact_start)
+            return {contacts, contacts};
+        return {contacts + contact_start[i], contacts + contact_start[i + 1]};
+    }
+    GP_INLINE const int32_t *ghosts(const Contact &contact) const { return ghost_index + contact.begin; }
+    GP_INLINE static int64_t ghost_count(const Contact &contact) { return contact.end - contact.begin; }
+};
+
+// A plate with its own idea of friction passes no shear: of a sum of velocity differences (x) ways to its ghosts, the
+// change along the normal of the velocity along the plate, t.M.n, is left out.
+GP_INLINE void drop_wall_shear(const Plate &plate, double &xx, double &xy, double &yx, double &yy) {
+    if (plate.spec().friction == GP_WALL_NO_SLIP)
+        return;
+    const Vector &t = plate.segment().tangent, &n = plate.segment().normal;
+    const double shear = t.x() * (xx * n.x() + xy * n.y()) + t.y() * (yx * n.x() + yy * n.y());
+    xx -= shear * t.x() * n.x();
+    xy -= shear * t.x() * n.y();
+    yx -= shear * t.y() * n.x();
+    yy -= shear * t.y() * n.y();
+}
+
+} // namespace gp::stages
