@@ -56,6 +56,10 @@ void check_config(const gp_config &c) {
     require_choice("gp_config.threads", c.threads, 1025);
     require(c.jitter >= 0 && c.jitter < 0.5, "gp_config.jitter", c.jitter, "a number from 0 to below 0.5");
     require_choice("gp_config.preset", c.preset, 3);
+    require_between("gp_config.implicit_tolerance", c.implicit_tolerance, 1e-12, 1e-2);
+    require_between("gp_config.implicit_iterations", c.implicit_iterations, 1, 10000);
+    require_choice("gp_config.allow_unstable_step", c.allow_unstable_step, 2);
+    require_choice("gp_config.retry_halvings", c.retry_halvings, 21);
 
     if (scheme_of(c) != Scheme::adjoint) {
         const char *none = "0: the schemes with GP_DENSITY_NUMBER have none";

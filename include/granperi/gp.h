@@ -152,6 +152,14 @@ typedef struct gp_config {
     int32_t preset;              /* GP_PRESET_..., set by gp_config_init */
     double bulk_viscosity;       /* of volume changes under pressure and, inside the yield surface, of shear, in rho c0 dl:
                                     it damps elastic waves and does not act at rest; 0: off; 0 .. 1 [the scheme's own: 0.2] */
+    double implicit_tolerance;   /* with GP_STRESS_IMPLICIT: the solve of a step has converged when what is left of the
+                                    momentum balance is below this share of the forces in it; 1e-12 .. 1e-2 [1e-6] */
+    int32_t implicit_iterations; /* with GP_STRESS_IMPLICIT: Newton steps that one solve may take; a solve that needs more
+                                    is GP_E_DIVERGED; 1 .. 10000 [100] */
+    int32_t allow_unstable_step; /* 1: a demanded time_step or cfl beyond the stable limit is taken, with a warning; 0: it
+                                    is refused [0] */
+    int32_t retry_halvings;      /* a step that diverges is taken anew from where it began in two halves, these in halves
+                                    again and so on, up to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0] */
 } gp_config;
 
 /* Fills *config with the defaults of the preset. size: sizeof(gp_config). */
@@ -327,6 +335,18 @@ GP_API gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *pa
 /* One field (exactly one bit), converted to double, in the order of id. n: length of dst, equal to the count. */
 GP_API gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n);
 
+/* What set the time step. */
+enum {
+    GP_DT_NONE = 0,      /* no step taken yet */
+    GP_DT_SOUND = 1,     /* elastic waves: cfl dl / wave speed */
+    GP_DT_FLOW = 2,      /* relative motion: a quarter spacing per step */
+    GP_DT_PLATE = 3,     /* the inertia of a loaded plate */
+    GP_DT_VISCOSITY = 4, /* bulk_viscosity, zero_energy_penalty or density_diffusion */
+    GP_DT_DEMANDED = 5,  /* gp_config.time_step */
+    GP_DT_END = 6,       /* shortened to land on the t_end of gp_run */
+    GP_DT_RETRY = 7      /* shortened because the step had diverged (gp_config.retry_halvings) */
+};
+
 typedef struct gp_state {
     uint32_t struct_size; /* set by the caller */
     double time;          /* s */
@@ -365,6 +385,16 @@ typedef struct gp_state {
     double bulk_dissipated;        /* J/m, the part that the bulk viscosity took */
     double collision_dissipated;   /* J/m, the part that collisions took */
     double channel_dissipated;     /* J/m, the part that the friction of side walls took */
+    int32_t dt_reason;             /* GP_DT_...: what set dt */
+    int32_t implicit_last;         /* Newton steps of the last step's solve; this and the next four with
+                                      GP_STRESS_IMPLICIT only, else 0 */
+    int64_t implicit_newton;       /* Newton steps so far */
+    int64_t implicit_linear;       /* iterations of conjugate gradients so far */
+    int64_t implicit_failures;     /* solves that did not converge, so far: each is GP_E_DIVERGED or a retry */
+    double implicit_residual;      /* of the last solve, as gp_config.implicit_tolerance */
+    int64_t retries;               /* steps taken anew so far (gp_config.retry_halvings) */
+    double dt_limit;               /* s, the largest time_step that is stable for this scene */
+    double max_compression;        /* largest density over the material's own so far, less 1 */
 } gp_state;
 
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
