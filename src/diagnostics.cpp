@@ -47,6 +47,12 @@ gp_state measure_state(const World &world) {
     s.collision_dissipated = world.ledger.collisions;
     s.channel_dissipated = world.ledger.side_walls;
 
+    s.implicit_last = world.viscous.last;
+    s.implicit_newton = world.viscous.newton;
+    s.implicit_linear = world.viscous.linear;
+    s.implicit_failures = world.viscous.failures;
+    s.implicit_residual = world.viscous.last_residual;
+
     double speed2 = 0;
     for (int64_t i = 0; i < p.count; ++i) {
         const double mass = world.material_of(i).density * p.volume;

@@ -18,10 +18,16 @@ namespace gp {
 // The schemes that there are: stage lists over the same fields (plan.cpp, plan_paper.cpp).
 enum class Scheme {
     adjoint,    // the default: continuity, return map, adjoint operators
+    implicit,   // the same with the regularised law in place of the return map, solved implicitly
     paper,      // Jin et al. (2021): number density, regularised law, force states
     paper_local // its local model: the same by MPS operators
 };
 Scheme scheme_of(const gp_config &config); // throws for a combination of choices that is none of them
+
+// Does the pressure follow from the particle number density, with the paper's operators and ghosts?
+inline bool by_number_density(Scheme scheme) {
+    return scheme == Scheme::paper || scheme == Scheme::paper_local;
+}
 
 gp_config default_config(int32_t preset); // throws for an unknown preset
 gp_material default_material();

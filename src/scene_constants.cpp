@@ -110,7 +110,7 @@ Constants Scene::constants() const {
     c.lattice = lattice_sums(c.horizon, c.spacing);
     c.scheme = scheme_of(config_);
     c.interaction_lattice = lattice_sums(c.interaction_radius, c.spacing);
-    c.reach = c.scheme == Scheme::adjoint       ? c.horizon
+    c.reach = !by_number_density(c.scheme)      ? c.horizon
               : c.scheme == Scheme::paper_local ? c.interaction_radius
                                                 : std::max(c.horizon, c.interaction_radius);
 

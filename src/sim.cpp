@@ -172,7 +172,7 @@ void Sim::prepare() {
     auto world = make_world(scene_);
     stages::measure_velocities(*world);
     stages::update_neighbors(*world);
-    if (world->constants.scheme != Scheme::adjoint)
+    if (by_number_density(world->constants.scheme))
         stages::number_density(*world);
     open_ledger(*world);
 

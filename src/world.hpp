@@ -5,9 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "mirrors.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "scene.hpp"
+#include "viscous_system.hpp"
 #include "walls.hpp"
 
 namespace gp {
@@ -46,6 +48,7 @@ struct alignas(64) BlockSums {
     double unbalanced = 0;     // kg/m, mass of the particles that forces and pushes together still accelerate
     double collision_loss = 0; // J/m
     double side_walls = 0;     // J/m, dissipated by the friction of side walls
+    double scheme = 0;         // J/m, lost by the implicit solve beside friction
     int64_t collisions = 0;    // counted from both sides
     double kinetic = 0;        // J/m
 };
@@ -68,6 +71,9 @@ struct World {
     Images images; // of a periodic scene, else empty
     NeighborList neighbors;
     Walls walls;
+    // With GP_STRESS_IMPLICIT, else empty.
+    Mirrors mirrors;
+    ViscousSystem viscous;
     Clock clock;
     double mass = 0; // kg/m, of all particles
     Ledger ledger;

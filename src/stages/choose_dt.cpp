@@ -24,7 +24,7 @@ constexpr Cfl adjoint_cfl{0.8, 1.0};
 constexpr Cfl paper_cfl{0.2, 1.0};
 
 Cfl cfl_of(const Constants &c) {
-    return c.scheme == Scheme::adjoint ? adjoint_cfl : paper_cfl;
+    return by_number_density(c.scheme) ? paper_cfl : adjoint_cfl;
 }
 
 // Relative motion allowed in one step, in dl: positions, and so neighbours, change little.

@@ -47,6 +47,19 @@ void account(World &world);
 // The part of account that the next step's size follows from; also run before the first step.
 void measure_velocities(World &world);
 
+// ------------------------------------------------------------------------------------- of the implicit scheme
+
+// Ghost velocities for the change of volume alone.
+void wall_volume_velocity(World &world);
+// -p K^-1, with the penalty's half of L.
+void pressure_over_shape(World &world);
+// Ghost pressures extrapolated from the particles.
+void wall_isotropic_stress(World &world);
+// The operators of the viscous equations at r^k.
+void viscous_system(World &world);
+// Velocity and stress at the end of the step, by the regularised law.
+void viscous_solve(World &world);
+
 // ------------------------------------------------------------------------------------ of the paper's schemes
 
 // u* and r* by gravity (3.14, 3.15); in the local model also by the viscous force.
