@@ -15,8 +15,7 @@ double compression_energy(const Particles &p, const MaterialConstants &m, int64_
 
 // That and s:s / 4G.
 double elastic_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
-    return compression_energy(p, m, i) +
-           (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+    return compression_energy(p, m, i) + (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
 }
 
 // The same as the first with the paper's equation of state.

@@ -25,8 +25,8 @@ void Mirrors::find(const Walls &walls, const Particles &particles, const CellGri
     contact_start.assign(contacts + 1, 0);
     for (int64_t g = 0; g < walls.ghost_count; ++g) {
         const int32_t plate = walls.ghost_plate[g];
-        const Vector mirror =
-            Vector(walls.ghost_x[g], walls.ghost_y[g]) + 2 * walls.ghost_depth[g] * walls.plates[plate].segment().normal;
+        const Vector mirror = Vector(walls.ghost_x[g], walls.ghost_y[g]) +
+                              2 * walls.ghost_depth[g] * walls.plates[plate].segment().normal;
         for_each_candidate(grid, images, mirror.x(), mirror.y(), radius, [&](int64_t i) {
             const double dx = particles.x[i] - mirror.x(), dy = particles.y[i] - mirror.y();
             if (dx * dx + dy * dy < radius * radius && contact_of(walls, images.source(i), plate) >= 0)

@@ -65,7 +65,8 @@ void update_neighbors(World &world) {
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
     if (c.scheme == Scheme::implicit)
-        world.mirrors.find(world.walls, world.particles, world.grid, world.images, mirror_reach * c.spacing + world.skin);
+        world.mirrors.find(world.walls, world.particles, world.grid, world.images,
+                           mirror_reach * c.spacing + world.skin);
     world.lists_valid = true;
 }
 

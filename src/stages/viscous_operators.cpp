@@ -14,20 +14,21 @@ namespace {
 struct View {
     Rows rows;
     const Plate *plates;
-    const double *qx, *qy;             // w r of pairs
-    const double *ghost_qx, *ghost_qy; // of contacts
-    const double *gxx, *gxy, *gyy;     // K^-1
+    const double *qx, *qy, *w;                   // w r and w of pairs
+    const double *ghost_qx, *ghost_qy, *ghost_w; // of contacts
+    const double *gxx, *gxy, *gyy;               // K^-1
 
     explicit View(const World &world)
         : rows(world), plates(world.walls.plates.data()), qx(world.viscous.pair.x.data()),
-          qy(world.viscous.pair.y.data()), ghost_qx(world.viscous.contact_pair.x.data()),
-          ghost_qy(world.viscous.contact_pair.y.data()),
-          gxx(world.particles.gxx.data()), gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()) {}
+          qy(world.viscous.pair.y.data()), w(world.viscous.pair_weight.data()),
+          ghost_qx(world.viscous.contact_pair.x.data()), ghost_qy(world.viscous.contact_pair.y.data()),
+          ghost_w(world.viscous.contact_weight.data()), gxx(world.particles.gxx.data()),
+          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()) {}
 };
 
 GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, const double *__restrict y,
-                               double inverse_radius, double *__restrict qx, double *__restrict qy, int64_t begin,
-                               int64_t end) {
+                               double inverse_radius, double *__restrict qx, double *__restrict qy,
+                               double *__restrict ws, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = x[i], yi = y[i];
 #pragma omp simd
@@ -35,6 +36,7 @@ GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, con
             const int32_t j = rows.index[k];
             const double dx = x[j] - xi, dy = y[j] - yi;
             const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+            ws[k] = w;
             qx[k] = w * dx;
             qy[k] = w * dy;
         }
@@ -59,7 +61,9 @@ void make_ghosts(World &world) {
     ViscousSystem &v = world.viscous;
     const double inverse_radius = 1.0 / world.constants.horizon, spacing = world.constants.spacing;
     v.seen_pair.resize(static_cast<int64_t>(w.particles_of_ghost.index.size()));
+    v.seen_weight.resize(v.seen_pair.x.size());
     v.contact_pair.resize(static_cast<int64_t>(w.ghost_of_contact.size()));
+    v.contact_weight.resize(v.contact_pair.x.size());
     v.mirror_share.resize(static_cast<int64_t>(mirrors.of_ghost.index.size()));
     v.ghost_normal.resize(w.ghost_count);
     v.ghost_tangential.resize(w.ghost_count);
@@ -71,13 +75,13 @@ void make_ghosts(World &world) {
                 const int32_t i = w.particles_of_ghost.index[k];
                 const double dx = w.ghost_x[g] - p.x[i], dy = w.ghost_y[g] - p.y[i];
                 const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+                v.seen_weight[k] = q;
                 v.seen_pair.x[k] = q * dx;
                 v.seen_pair.y[k] = q * dy;
             }
             const Plate &plate = w.plates[w.ghost_plate[g]];
             const double shift = w.ghost_shift.empty() ? 0.0 : w.ghost_shift[g];
-            const Vector mirror =
-                Vector(w.ghost_x[g], w.ghost_y[g]) + 2 * w.ghost_depth[g] * plate.segment().normal;
+            const Vector mirror = Vector(w.ghost_x[g], w.ghost_y[g]) + 2 * w.ghost_depth[g] * plate.segment().normal;
             double sum = 0, distance = 0;
             for (int64_t k = mirrors.of_ghost.start[g]; k < mirrors.of_ghost.start[g + 1]; ++k) {
                 const int32_t i = mirrors.of_ghost.index[k];
@@ -103,6 +107,7 @@ void make_ghosts(World &world) {
                 const int32_t g = w.ghost_of_contact[k];
                 const double dx = w.ghost_x[g] - p.x[i], dy = w.ghost_y[g] - p.y[i];
                 const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+                v.contact_weight[k] = q;
                 v.contact_pair.x[k] = q * dx;
                 v.contact_pair.y[k] = q * dy;
             }
@@ -170,8 +175,7 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
             Vector own = Vector::Zero();
             if (plates == Plates::move)
                 own = plate.velocity();
-            const Vector ghost =
-                own + scaled(plate.segment(), v.ghost_tangential[g], v.ghost_normal[g], mean - own);
+            const Vector ghost = own + scaled(plate.segment(), v.ghost_tangential[g], v.ghost_normal[g], mean - own);
             v.ghost_velocity.x[g] = ghost.x();
             v.ghost_velocity.y[g] = ghost.y();
         }
@@ -179,8 +183,8 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
 }
 
 GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const double *__restrict uy,
-                               const double *gx, const double *gy, double *exx, double *exy, int64_t begin,
-                               int64_t end) {
+                               const double *gx, const double *gy, double *oxx, double *oxy, double *oyx, double *oyy,
+                               int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double ui = ux[i], vi = uy[i];
         double mxx = 0, mxy = 0, myx = 0, myy = 0;
@@ -210,15 +214,15 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
             myx += yx;
             myy += yy;
         }
-        const double lxx = mxx * v.gxx[i] + mxy * v.gxy[i], lxy = mxx * v.gxy[i] + mxy * v.gyy[i];
-        const double lyx = myx * v.gxx[i] + myy * v.gxy[i], lyy = myx * v.gxy[i] + myy * v.gyy[i];
-        exx[i] = 0.5 * (lxx - lyy);
-        exy[i] = 0.5 * (lxy + lyx);
+        oxx[i] = mxx * v.gxx[i] + mxy * v.gxy[i];
+        oxy[i] = mxx * v.gxy[i] + mxy * v.gyy[i];
+        oyx[i] = myx * v.gxx[i] + myy * v.gxy[i];
+        oyy[i] = myx * v.gxy[i] + myy * v.gyy[i];
     }
 }
 
-// Force on each ghost: -sum A_i w r over the particles that see it.
-void find_ghost_forces(World &world) {
+// Force on each ghost: -sum C_i w r + c_i w (u_ghost - u_i) over the particles that see it.
+void find_ghost_forces(World &world, const VectorField &u) {
     const Walls &w = world.walls;
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
@@ -230,8 +234,9 @@ void find_ghost_forces(World &world) {
                 const int32_t i = w.particles_of_ghost.index[k];
                 double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
                 drop_wall_shear(plate, xx, xy, yx, yy);
-                fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k];
-                fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k];
+                const double share = v.stiffness[i] * v.seen_weight[k];
+                fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k] + share * (v.ghost_velocity.x[g] - u.x[i]);
+                fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k] + share * (v.ghost_velocity.y[g] - u.y[i]);
             }
             v.ghost_force.x[g] = fx;
             v.ghost_force.y[g] = fy;
@@ -239,7 +244,7 @@ void find_ghost_forces(World &world) {
     });
 }
 
-GP_INLINE Vector force_of_contact(const View &v, const World &world, const Contact &contact) {
+GP_INLINE Vector force_of_contact(const View &v, const World &world, const VectorField &u, const Contact &contact) {
     const Particles &p = world.particles;
     const ViscousSystem &s = world.viscous;
     const int64_t i = contact.particle;
@@ -248,7 +253,10 @@ GP_INLINE Vector force_of_contact(const View &v, const World &world, const Conta
     drop_wall_shear(plate, xx, xy, yx, yy);
     Vector force = Vector::Zero();
     for (int64_t k = contact.begin; k < contact.end; ++k) {
-        force += Vector(xx * v.ghost_qx[k] + xy * v.ghost_qy[k], yx * v.ghost_qx[k] + yy * v.ghost_qy[k]);
+        const int32_t g = v.rows.ghost_index[k];
+        const double share = s.stiffness[i] * v.ghost_w[k];
+        force += Vector(xx * v.ghost_qx[k] + xy * v.ghost_qy[k] + share * (s.ghost_velocity.x[g] - u.x[i]),
+                        yx * v.ghost_qx[k] + yy * v.ghost_qy[k] + share * (s.ghost_velocity.y[g] - u.y[i]));
     }
     const Mirrors &mirrors = world.mirrors;
     const int64_t c = &contact - world.walls.contacts.data();
@@ -260,22 +268,30 @@ GP_INLINE Vector force_of_contact(const View &v, const World &world, const Conta
     return force;
 }
 
-GP_MULTIVERSION void force_rows(const View &v, const World &world, const double *__restrict cxx,
-                                const double *__restrict cxy, const double *__restrict cyx,
-                                const double *__restrict cyy, double *fx, double *fy, int64_t begin, int64_t end) {
+struct Sources {
+    const double *cxx, *cxy, *cyx, *cyy, *stiffness, *ux, *uy;
+};
+
+GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorField &u, const Sources &sources,
+                                double *fx, double *fy, int64_t begin, int64_t end) {
+    const double *__restrict cxx = sources.cxx, *__restrict cxy = sources.cxy, *__restrict cyx = sources.cyx,
+                             *__restrict cyy = sources.cyy;
+    const double *__restrict stiffness = sources.stiffness, *__restrict ux = sources.ux, *__restrict uy = sources.uy;
     for (int64_t i = begin; i < end; ++i) {
         double qx = 0, qy = 0, tx = 0, ty = 0;
+        const double own = stiffness[i], ui = ux[i], vi = uy[i];
 #pragma omp simd reduction(+ : qx, qy, tx, ty)
         for (int64_t k = v.rows.start[i]; k < v.rows.start[i + 1]; ++k) {
             const int32_t j = v.rows.index[k];
+            const double share = v.w[k] * (own + stiffness[j]);
             qx += v.qx[k];
             qy += v.qy[k];
-            tx += cxx[j] * v.qx[k] + cxy[j] * v.qy[k];
-            ty += cyx[j] * v.qx[k] + cyy[j] * v.qy[k];
+            tx += cxx[j] * v.qx[k] + cxy[j] * v.qy[k] + share * (ux[j] - ui);
+            ty += cyx[j] * v.qx[k] + cyy[j] * v.qy[k] + share * (uy[j] - vi);
         }
         double sx = cxx[i] * qx + cxy[i] * qy + tx, sy = cyx[i] * qx + cyy[i] * qy + ty;
         for (const Contact &contact : v.rows.contacts_of(i)) {
-            const Vector force = force_of_contact(v, world, contact);
+            const Vector force = force_of_contact(v, world, u, contact);
             sx += force.x();
             sy += force.y();
         }
@@ -284,8 +300,39 @@ GP_MULTIVERSION void force_rows(const View &v, const World &world, const double 
     }
 }
 
+// Where L is not the best fit to the velocities around (few neighbours, a plate that takes no shear), what it does not
+// see has no energy of its own to be the derivative of.
+void mark_regular(World &world) {
+    const Particles &p = world.particles;
+    ViscousSystem &v = world.viscous;
+    const Rows rows(world);
+    v.regular.resize(p.count);
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t i = begin; i < end; ++i) {
+            double kxx = 0, kxy = 0, kyy = 0;
+            const auto add = [&](double w, double qx, double qy) {
+                if (w > 0) {
+                    kxx += qx * qx / w;
+                    kxy += qx * qy / w;
+                    kyy += qy * qy / w;
+                }
+            };
+            for (int64_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                add(v.pair_weight[k], v.pair.x[k], v.pair.y[k]);
+            for (const Contact &contact : rows.contacts_of(i))
+                for (int64_t k = contact.begin; k < contact.end; ++k)
+                    add(v.contact_weight[k], v.contact_pair.x[k], v.contact_pair.y[k]);
+            const double off = std::abs(kxx * p.gxx[i] + kxy * p.gxy[i] - 1) +
+                               std::abs(kxy * p.gxy[i] + kyy * p.gyy[i] - 1) +
+                               std::abs(kxx * p.gxy[i] + kxy * p.gyy[i]);
+            v.regular[i] = off < 1e-6 && !touches_slip(world, i) ? 1.0 : 0.0;
+        }
+    });
+}
+
 GP_MULTIVERSION void diagonal_rows(const View &v, const double *__restrict kxx, const double *__restrict kxy,
-                                   const double *__restrict kyy, double *diagonal, int64_t begin, int64_t end) {
+                                   const double *__restrict kyy, const double *__restrict stiffness, double *diagonal,
+                                   int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         double qx = 0, qy = 0, sum = 0;
 #pragma omp simd reduction(+ : qx, qy, sum)
@@ -294,7 +341,7 @@ GP_MULTIVERSION void diagonal_rows(const View &v, const double *__restrict kxx, 
             const double x = v.qx[k], y = v.qy[k];
             qx += x;
             qy += y;
-            sum += kxx[j] * x * x + 2.0 * kxy[j] * x * y + kyy[j] * y * y;
+            sum += v.w[k] * (stiffness[i] + stiffness[j]) + kxx[j] * x * x + 2.0 * kxy[j] * x * y + kyy[j] * y * y;
         }
         for (const Contact &contact : v.rows.contacts_of(i))
             for (int64_t k = contact.begin; k < contact.end; ++k) {
@@ -311,14 +358,16 @@ void make_viscous_system(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     v.pair.resize(static_cast<int64_t>(world.neighbors.index.size()));
+    v.pair_weight.resize(v.pair.x.size());
     const Rows rows(world);
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
-        pair_rows(rows, p.x.data(), p.y.data(), 1.0 / world.constants.horizon, v.pair.x.data(), v.pair.y.data(), begin,
-                  end);
+        pair_rows(rows, p.x.data(), p.y.data(), 1.0 / world.constants.horizon, v.pair.x.data(), v.pair.y.data(),
+                  v.pair_weight.data(), begin, end);
     });
     make_ghosts(world);
     v.pressure.resize(p.count);
     find_yield_pressure(world);
+    mark_regular(world);
 }
 
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) {
@@ -328,33 +377,40 @@ void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) 
         find_ghost_velocities(world, u, plates);
     const View view(world);
     for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
-        rate_rows(view, u.x.data(), u.y.data(), v.ghost_velocity.x.data(), v.ghost_velocity.y.data(), e.x.data(),
-                  e.y.data(), begin, end);
+        rate_rows(view, u.x.data(), u.y.data(), v.ghost_velocity.x.data(), v.ghost_velocity.y.data(), v.lxx.data(),
+                  v.lxy.data(), v.lyx.data(), v.lyy.data(), begin, end);
+        for (int64_t i = begin; i < end; ++i) {
+            e.x[i] = 0.5 * (v.lxx[i] - v.lyy[i]);
+            e.y[i] = 0.5 * (v.lxy[i] + v.lyx[i]);
+        }
     });
 }
 
-void viscous_forces(World &world, const VectorField &s, VectorField &f) {
+void viscous_forces(World &world, const VectorField &s, const VectorField &u, VectorField &f) {
     Particles &p = world.particles;
+    const ViscousSystem &v = world.viscous;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
-            p.cxx[i] = s.x[i] * p.gxx[i] + s.y[i] * p.gxy[i];
-            p.cxy[i] = s.x[i] * p.gxy[i] + s.y[i] * p.gyy[i];
-            p.cyx[i] = s.y[i] * p.gxx[i] - s.x[i] * p.gxy[i];
-            p.cyy[i] = s.y[i] * p.gxy[i] - s.x[i] * p.gyy[i];
+            const double c = v.stiffness[i];
+            p.cxx[i] = s.x[i] * p.gxx[i] + s.y[i] * p.gxy[i] - c * v.lxx[i];
+            p.cxy[i] = s.x[i] * p.gxy[i] + s.y[i] * p.gyy[i] - c * v.lxy[i];
+            p.cyx[i] = s.y[i] * p.gxx[i] - s.x[i] * p.gxy[i] - c * v.lyx[i];
+            p.cyy[i] = s.y[i] * p.gxy[i] - s.x[i] * p.gyy[i] - c * v.lyy[i];
         }
     });
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.walls.in_reach())
-        find_ghost_forces(world);
+        find_ghost_forces(world, u);
     const View view(world);
+    const Sources sources{p.cxx.data(),       p.cxy.data(), p.cyx.data(), p.cyy.data(),
+                          v.stiffness.data(), u.x.data(),   u.y.data()};
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
-        force_rows(view, world, p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(), f.x.data(), f.y.data(), begin,
-                   end);
+        force_rows(view, world, u, sources, f.x.data(), f.y.data(), begin, end);
     });
 }
 
-Vector viscous_contact_force(const World &world, const Contact &contact) {
-    return force_of_contact(View(world), world, contact);
+Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact) {
+    return force_of_contact(View(world), world, u, contact);
 }
 
 // With eta in place of H the block of particle i is eta/2 |K^-1 q|^2 for each row of rates that q stands in.
@@ -372,7 +428,7 @@ void viscous_diagonal(World &world, const Field<double> &eta, Field<double> &dia
     world.images.copy({&v.kxx, &v.kxy, &v.kyy});
     const View view(world);
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
-        diagonal_rows(view, v.kxx.data(), v.kxy.data(), v.kyy.data(), diagonal.data(), begin, end);
+        diagonal_rows(view, v.kxx.data(), v.kxy.data(), v.kyy.data(), v.stiffness.data(), diagonal.data(), begin, end);
     });
 }
 

@@ -20,11 +20,12 @@ enum class Plates { move, stand }; // stand: for changes of u
 // e of u. Makes u's images and the ghosts' velocities.
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e);
 
-// f of s, N/m3. S K^-1 and the ghosts' forces are left behind: viscous_contact_force reads them.
-void viscous_forces(World &world, const VectorField &s, VectorField &f);
+// f of s and of what L does not see of u, N/m3, by ViscousSystem::stiffness. Of u, viscous_rates was the last. S K^-1 - c L
+// and the ghosts' forces are left behind: viscous_contact_force reads them.
+void viscous_forces(World &world, const VectorField &s, const VectorField &u, VectorField &f);
 
 // What a contact brings of the last viscous_forces, N/m3.
-Vector viscous_contact_force(const World &world, const Contact &contact);
+Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact);
 
 // Diagonal of the linearised equations without the inertia, for isotropic viscosities eta (Pa s): N s/m4.
 void viscous_diagonal(World &world, const Field<double> &eta, Field<double> &diagonal);
