@@ -39,7 +39,7 @@ template <bool Viscous> void advance_particles(World &world) {
 
 // ax, ay are left as the whole step's acceleration: what the ledger and gp_state.at_rest go by.
 template <class Late> void correct_by(World &world, const Late &late) {
-    require_finite_accelerations(world);
+    require_bounded_step(world);
     Particles &p = world.particles;
     const double dt = world.clock.dt;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
@@ -62,7 +62,7 @@ void predict(World &world) {
 }
 
 void predict_with_viscosity(World &world) {
-    require_finite_accelerations(world);
+    require_bounded_step(world);
     advance_particles<true>(world);
     advance_ghosts(world);
 }

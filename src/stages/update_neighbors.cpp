@@ -61,7 +61,8 @@ void update_neighbors(World &world) {
     world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing, world.threads);
     if (c.scheme != Scheme::adjoint)
         world.walls.find_wall_particles(c.spacing);
-    world.lists_valid = true;
+    world.lists_valid = world.lists_new = true;
+    world.listed.clear();
 }
 
 void update_images(World &world) {
