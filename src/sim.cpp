@@ -206,7 +206,10 @@ void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
     require_finite("vy", vy);
     require_tangential(scene_.plates()[plate], {vx, vy}, "plate");
     if (started_) {
-        world_->walls.plates[plate].drive(world_->clock.time, {vx, vy});
+        Plate &driven = world_->walls.plates[plate];
+        driven.drive(world_->clock.time, {vx, vy});
+        if (driven.gap <= 0) // the lists and the step's size count on the span from the next step on
+            world_->velocity_span = std::max(world_->velocity_span, driven.velocity().norm() + world_->fastest);
         ++epoch_;
     } else {
         scene_.drive_plate(plate, {vx, vy});

@@ -82,8 +82,13 @@ template <bool Adjoint> void close_books(World &world) {
     world.shifted += world.velocity_span * dt;
     for (Plate &plate : world.walls.plates)
         if (plate.gap > 0) {
-            plate.gap -= dt * (plate.velocity().norm() + world.fastest);
-            world.lists_valid = world.lists_valid && plate.gap > 0;
+            const double approach = plate.velocity().norm() + world.fastest;
+            plate.gap -= dt * approach;
+            if (plate.gap <= 0) { // it matters from the next step on, whose size a fast one limits
+                world.lists_valid = false;
+                if (approach * dt > flow_share * world.constants.spacing)
+                    world.velocity_span = std::max(world.velocity_span, approach);
+            }
         }
 
     BlockSums total;

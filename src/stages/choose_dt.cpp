@@ -28,9 +28,6 @@ Cfl cfl_of(const Constants &c) {
     return c.scheme == Scheme::adjoint ? adjoint_cfl : paper_cfl;
 }
 
-// Relative motion allowed in one step, in dl: positions, and so neighbours, change little.
-constexpr double flow_share = 0.25;
-
 // The smallest step that the flow may ask for, over dl / wave speed: relative speeds of 32 wave speeds. Material that an
 // equation of state made for a tenth of one can describe is far below (the deposit is wrong from one on), and what is
 // beyond has been given a wrong sound speed or been flung away by a step that was not stable.
@@ -44,7 +41,17 @@ bool land(double left, double &dt) {
     return true;
 }
 
-// Who is fastest, for an error.
+// A plate that is out of reach does not limit the step by the flow; but none may jump over what it has not seen.
+double arrival(const World &world) {
+    double soonest = INFINITY;
+    for (const Plate &plate : world.walls.plates)
+        if (plate.gap > 0)
+            soonest =
+                std::min(soonest, (plate.gap + world.constants.spacing) / (plate.velocity().norm() + world.fastest));
+    return soonest;
+}
+
+// Who is fastest, for an error: a particle, or a plate in its reach or about to be.
 std::string fastest_of(const World &world) {
     const Particles &p = world.particles;
     double fastest = -1;
@@ -56,7 +63,8 @@ std::string fastest_of(const World &world) {
         }
     const std::vector<Plate> &plates = world.walls.plates;
     for (std::size_t k = 0; k < plates.size(); ++k)
-        if (plates[k].gap <= 0 && plates[k].velocity().norm() > fastest)
+        if (const double speed = plates[k].velocity().norm();
+            speed > fastest && plates[k].gap <= speed * world.clock.dt)
             return format_text("plate %zu moves at (%g, %g) m/s", k, plates[k].velocity().x(),
                                plates[k].velocity().y());
     return format_text("the fastest particle is %lld at (%g, %g) m with (%g, %g) m/s",
@@ -110,6 +118,7 @@ void choose_dt(World &world) {
         }
         if (world.velocity_span > 0)
             limit(flow_share * c.spacing / world.velocity_span, GP_DT_FLOW);
+        limit(arrival(world), GP_DT_FLOW);
     }
     if (!world.pieces.empty()) {
         const double left = world.pieces.back().end - clock.time;
@@ -124,13 +133,14 @@ void choose_dt(World &world) {
                          "time step %g s: too small to move the clock on from %g s; speeds differ by up to %g m/s", dt,
                          clock.time, world.velocity_span);
     clock.dt = dt;
-    if (!(world.velocity_span * dt <= motion_bound * c.spacing)) // only a demanded step is so long
-        throw make_error(
-            GP_E_DIVERGED,
-            "flow: speeds differ by %g m/s, a motion of %g dl in a step of %g s, expected at most %g; %s, time %g "
-            "s, step %lld",
-            world.velocity_span, world.velocity_span * dt / c.spacing, dt, motion_bound, fastest_of(world).c_str(),
-            clock.time, static_cast<long long>(clock.step));
+    // Only a demanded step is as long as this.
+    const double motion = world.velocity_span * dt / c.spacing;
+    if (!(motion <= motion_bound) || dt > arrival(world))
+        throw make_error(GP_E_DIVERGED,
+                         "flow: speeds differ by %g m/s, a motion of %g dl in a step of %g s, expected at most %g; %s, "
+                         "time %g s, step %lld",
+                         world.velocity_span, motion, dt, motion_bound, fastest_of(world).c_str(), clock.time,
+                         static_cast<long long>(clock.step));
 }
 
 } // namespace gp::stages

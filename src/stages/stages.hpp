@@ -14,6 +14,9 @@ inline bool is_bounded_density(double ratio) {
     return ratio >= 0 && ratio < density_bound; // not a NaN
 }
 
+// Relative motion allowed in one step that is not demanded, in dl: positions, and so neighbours, change little.
+constexpr double flow_share = 0.25;
+
 // The step's size, its reason and its bounds; shortened to land on the end of the run or of a part of a diverged step.
 void choose_dt(World &world);
 // The largest step that is stable for waves, viscous terms and loaded plates: what a host may demand.
