@@ -120,7 +120,7 @@ std::vector<std::string> Warnings::of_step(const World &world) {
         const int64_t i = contact->particle;
         texts.push_back(
             format_text("plate %d passes over particle %lld at (%g, %g) m, time %g s: drive the plate slower, "
-                        "take plates apart that meet, or set a larger gp_config.collision_distance",
+                        "or keep plates that meet a spacing apart",
                         contact->plate, static_cast<long long>(p.id[i]), p.x[i], p.y[i], time));
     }
     if (c.scheme != Scheme::adjoint) // the paper's schemes have no penalty, and lose energy by their nature
