@@ -31,7 +31,7 @@ gp_state measure_state(const World &world) {
     s.time = world.clock.time;
     s.step = world.clock.step;
     s.dt = world.clock.step > 0 ? world.clock.dt : 0.0;
-    s.dt_reason = world.clock.reason;
+    s.dt_reason = world.clock.step > 0 ? world.clock.reason : GP_DT_NONE;
     s.dt_limit = stages::stable_dt(world.constants);
     s.retries = world.retries;
     s.max_compression = world.max_compression;

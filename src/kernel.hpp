@@ -2,7 +2,6 @@
 // full square lattice of particles.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "parallel.hpp"

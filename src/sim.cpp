@@ -54,10 +54,11 @@ void Sim::run_stages() {
 
 // A step that diverges is undone and, if the host wants it, taken anew as two pieces of half its size, one after the other;
 // a piece that diverges likewise. Each piece is a whole step to everyone who looks.
-void Sim::take_step() {
+std::vector<std::string> Sim::take_step() {
     World &world = *world_;
     const int32_t most = scene_.config().retry_halvings;
     stages::require_moderate_flow(world); // no shorter step would help
+    std::vector<std::string> notes;
     for (bool done = false; !done;) {
         begin_step(world);
         try {
@@ -78,18 +79,21 @@ void Sim::take_step() {
             pieces.back().depth = depth;
             pieces.push_back({time + 0.5 * dt, depth});
             ++world.retries;
-            warn(warnings_.of_retry(world, error.what()));
+            if (notes.empty())
+                notes = warnings_.of_retry(world, error.what());
         }
     }
     const Clock &clock = world.clock;
     while (!world.pieces.empty() && world.pieces.back().end - clock.time < 1e-9 * clock.dt)
         world.pieces.pop_back();
     ++epoch_;
+    return notes;
 }
 
 gp_status Sim::advance(gp_sim *handle) {
+    std::vector<std::string> notes;
     try {
-        take_step();
+        notes = take_step();
     } catch (const Error &error) {
         diverged_ = error.status() == GP_E_DIVERGED;
         ++epoch_;
@@ -107,6 +111,7 @@ gp_status Sim::advance(gp_sim *handle) {
     } catch (const Error &) {
         lost_frame = std::current_exception();
     }
+    warn(notes);
     if (log_)
         warn(warnings_.of_step(*world_));
     bool stop = false;

@@ -59,8 +59,8 @@ private:
     void scene_changed();
     void check_demanded_step() const;
     void run_stages();
-    void take_step();                  // or what is left of it after halving
-    gp_status advance(gp_sim *handle); // one step, output and callback
+    std::vector<std::string> take_step(); // or a piece of it after halving; returns what the log is to be told
+    gp_status advance(gp_sim *handle);    // one step, output and callback
 
     Scene scene_;
     std::unique_ptr<World> world_;

@@ -19,7 +19,7 @@ namespace {
 } // namespace
 
 // The stages leave a sum per block: what is looked at particle by particle is a step that may be bad.
-void require_bounded_step(const World &world) {
+void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay) {
     const double dt = world.clock.dt;
     const double most = motion_bound * world.constants.spacing / (dt * dt); // m/s2
     const auto suspect = [&](const BlockSums &block) {
@@ -39,16 +39,16 @@ void require_bounded_step(const World &world) {
         if (!std::isfinite(p.sxx[i]) || !std::isfinite(p.sxy[i]))
             diverged(world, i, format_text("stress: deviator (%g, %g) Pa", p.sxx[i], p.sxy[i]));
     for (int64_t i = 0; i < p.count; ++i)
-        if (!(std::hypot(p.ax[i], p.ay[i]) <= most))
+        if (!(std::hypot(ax[i], ay[i]) <= most))
             diverged(world, i,
                      format_text("force: acceleration (%g, %g) m/s2, expected at most %g, a motion of %g dl in the "
                                  "step,",
-                                 p.ax[i], p.ay[i], most, motion_bound));
+                                 ax[i], ay[i], most, motion_bound));
 }
 
 void integrate(World &world) {
-    require_bounded_step(world);
     Particles &p = world.particles;
+    require_bounded_step(world, p.ax, p.ay);
     const double dt = world.clock.dt;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {

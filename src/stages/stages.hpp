@@ -46,9 +46,9 @@ void wall_stress(World &world);
 void force(World &world);
 // u, then r.
 void integrate(World &world);
-// Throws GP_E_DIVERGED if a density or an acceleration is not finite or out of bounds. Comes before the first change to
-// the particles that undo.hpp does not take back.
-void require_bounded_step(const World &world);
+// Throws GP_E_DIVERGED if a density, a stress or an acceleration is not finite or out of bounds. Comes before the first
+// change to the particles that undo.hpp does not take back. ax, ay: those that BlockSums::acceleration2 was summed of.
+void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay);
 // Coulomb friction of plates.
 void wall_friction(World &world);
 // Coulomb friction of the channel's side walls.
