@@ -48,7 +48,7 @@ struct Wave {
 
 // Calls visit(wave) for waves that sample the lattice's Brillouin zone, an eighth of it by its symmetry.
 template <class Visit> void for_each_wave(double radius, double spacing, const Visit &visit) {
-    constexpr int samples = 32; // per half period; twice as many change no maximum by more than 1 %
+    constexpr int samples = 32; // per half period
     const double horizon = radius / spacing, pi = std::acos(-1.0);
     const LatticeSums sums = lattice_sums(horizon, 1);
     const int reach = static_cast<int>(std::ceil(horizon));

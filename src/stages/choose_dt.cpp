@@ -28,9 +28,8 @@ Cfl cfl_of(const Constants &c) {
     return c.scheme == Scheme::adjoint ? adjoint_cfl : paper_cfl;
 }
 
-// The smallest step that the flow may ask for, over dl / wave speed: relative speeds of 32 wave speeds. Material that an
-// equation of state made for a tenth of one can describe is far below (the deposit is wrong from one on), and what is
-// beyond has been given a wrong sound speed or been flung away by a step that was not stable.
+// The smallest step that the flow may ask for, over dl / wave speed: relative speeds of 32 wave speeds. An automatic sound
+// speed keeps the flow below a tenth of one; what is beyond has been given a wrong sound speed or been flung away.
 constexpr double least_flow_step = 1.0 / 128;
 
 // Lets the steps land on a point of time: the last two share what is left, so that none is tiny.
