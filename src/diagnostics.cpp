@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ledger.hpp"
+#include "stages/stages.hpp"
 
 namespace gp {
 
@@ -30,6 +31,10 @@ gp_state measure_state(const World &world) {
     s.time = world.clock.time;
     s.step = world.clock.step;
     s.dt = world.clock.step > 0 ? world.clock.dt : 0.0;
+    s.dt_reason = world.clock.step > 0 ? world.clock.reason : GP_DT_NONE;
+    s.dt_limit = stages::stable_dt(world.constants);
+    s.retries = world.retries;
+    s.max_compression = world.max_compression;
     s.n_particles = p.count;
     s.n_awake = p.count;
 

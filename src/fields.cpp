@@ -28,7 +28,8 @@ double number_density(const World &world, int64_t i) {
     const double radius = world.constants.interaction_radius;
     double sum = 0;
     // The cells are those of the last sort: particles have moved by less than `shifted` since.
-    for_each_candidate(world.grid, world.images, p.x[i], p.y[i], radius + world.shifted, [&](int64_t j) {
+    for_each_candidate(world.grid, world.images, p.x[i], p.y[i], radius + world.shifted, [&](int64_t place) {
+        const int64_t j = world.particle_listed_at(place);
         if (j != i)
             sum += weight(std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]), 1.0 / radius);
     });

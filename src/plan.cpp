@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "stages/stages.hpp"
+#include "undo.hpp"
 
 namespace gp {
 
@@ -52,6 +53,8 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"move_plates", t.plates, "a plate moves", no_plates,
          stages::move_plates, plates_move, "no plate moves now"},
         {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
+        // copies what the next stages overwrite
+        {"keep_fields", t.particles, "a step that diverges is taken back", no_particles, keep_fields, nullptr, ""},
         // reads velocity; writes ghost velocity
         {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_velocity, in_reach, none_near},
@@ -195,6 +198,12 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));
+    int64_t kept = 0;
+    for (const Field<double> &field : world.step_start.copied)
+        kept += bytes_of(field);
+    for (const Field<double> &field : world.step_start.made)
+        kept += bytes_of(field);
+    optional("kept_fields", true, "a step that diverges is taken back", "", kept);
     common("cells", world.grid.bytes());
     common("neighbor_lists", world.neighbors.bytes());
     entries.push_back(field_entry("images", t.particles && t.periodic,

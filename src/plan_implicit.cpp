@@ -11,6 +11,7 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         rows.same("choose_dt"),
         rows.same("move_plates"),
         rows.same("update_neighbors"),
+        rows.same("keep_fields"),
         rows.other("wall_velocity", stages::wall_volume_velocity),
         rows.same("gradient"),
         rows.same("density_diffusion"),

@@ -12,6 +12,7 @@ std::vector<PlannedStage> paper_stages(const Traits &t, const std::vector<Planne
         rows.same("choose_dt"),
         rows.same("move_plates"),
         rows.same("update_neighbors"),
+        rows.same("keep_fields"),
         // writes u*, r* (3.14, 3.15)
         rows.particles("predict", "gravity first, then the forces", stages::predict),
         // reads position; writes density, pressure (2.4, 2.8)
@@ -45,6 +46,7 @@ std::vector<PlannedStage> paper_local_stages(const Traits &t, const std::vector<
         rows.same("choose_dt"),
         rows.same("move_plates"),
         rows.same("update_neighbors"),
+        rows.same("keep_fields"),
         rows.walls("ghost_velocity", stages::ghost_velocity),
         // reads position, velocity; writes velocity gradient (2.7)
         rows.particles("mps_gradient", "velocity gradient by the MPS operator", stages::mps_gradient),

@@ -34,6 +34,7 @@ void Plate::drive(double time, const Vector &velocity) {
     driven_since_ = time;
     driven_velocity_ = velocity;
     driven_ = true;
+    velocity_ = velocity + fall_speed_ * spec_->segment.normal; // the next step's size goes by it
 }
 
 bool Plate::moves_after(double time) const {

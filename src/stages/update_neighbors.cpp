@@ -67,7 +67,8 @@ void update_neighbors(World &world) {
     if (c.scheme == Scheme::implicit)
         world.mirrors.find(world.walls, world.particles, world.grid, world.images,
                            mirror_reach * c.spacing + world.skin);
-    world.lists_valid = true;
+    world.lists_valid = world.lists_new = true;
+    world.listed.clear();
 }
 
 void update_images(World &world) {
