@@ -80,7 +80,7 @@ void density_diffusion(World &world) {
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             p.cxy[i] = p.density[i] - world.material_of(i).density;
-            const bool flows = equivalent_stress({p.sxx[i], p.sxy[i]}) >= world.map_of(i).mu_s * p.pressure[i];
+            const bool flows = world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
             p.flowing[i] = flows ? 1.0 : 0.0;
         }
     });

@@ -22,7 +22,7 @@ constexpr double steepest_tangential = 0.5, steepest_normal = 0.25;
 
 bool at_yield(const World &world, int32_t i) {
     const Particles &p = world.particles;
-    return p.pressure[i] > 0 && equivalent_stress({p.sxx[i], p.sxy[i]}) >= world.map_of(i).mu_s * p.pressure[i];
+    return p.pressure[i] > 0 && world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
 }
 
 } // namespace
