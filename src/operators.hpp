@@ -89,6 +89,16 @@ struct SymmetricTensor {
     double xx, xy, yy;
 };
 
+// A grain that sees plates, but of particles fewer than make this trace (over k0; two to three a spacing away do) is in
+// flight: it carries no stress, and blows hold it off plates and others. With stress it hovered a spacing or two above a
+// floor, and bounced from there without end, each time higher; so it falls, touches, and lies there.
+constexpr double flight_trace = 0.15;
+
+GP_INLINE double carried_share(double particles_trace, double lattice_moment) {
+    const double share = particles_trace / (flight_trace * lattice_moment);
+    return share < 1.0 ? share * share : 1.0;
+}
+
 GP_INLINE SymmetricTensor inverse_shape(const Moments &m, double lattice_moment) {
     // The smaller eigenvalue is at least det/trace.
     const double trace = m.kxx + m.kyy, determinant = m.kxx * m.kyy - m.kxy * m.kxy;
