@@ -42,13 +42,11 @@ TEST(GrainDiameter, GoesFromOneLimitOfTheLawToTheOther) {
         gp_material m = beads();
         m.grain_diameter = d;
         peak.push_back(deposit(m).peak_height);
-        printf("d %g peak %g\n", d, peak.back());
     }
     for (std::size_t k = 1; k < peak.size(); ++k)
         EXPECT_GT(peak[k], 0.98 * peak[k - 1]); // more friction, a higher heap
     const double weak = deposit_of_friction(std::tan(degrees(21))).peak_height,
                  strong = deposit_of_friction(std::tan(degrees(32))).peak_height;
-    printf("weak %g strong %g\n", weak, strong);
     EXPECT_NEAR(peak.front(), weak, 0.02 * weak);
     EXPECT_NEAR(peak.back(), strong, 0.02 * strong);
     EXPECT_GT(strong, 1.05 * weak);
@@ -62,19 +60,41 @@ TEST(RateConstant, GoesFromOneLimitOfTheLawToTheOther) {
     m.i0 = 1e-9;
     const double strong = deposit(m).peak_height;
     EXPECT_NEAR(strong, deposit_of_friction(m.mu_2).peak_height, 0.01 * strong);
-    printf("weak %g strong %g\n", weak, strong);
 }
 
+// It sets the pressure over rho_s, and so I: nearly nothing is the limit of large I. No friction but that of the law changes.
 TEST(VolumeFraction, MayBeOneOrNearlyNothing) {
     gp_material m = beads();
-    const double peak = deposit(m).peak_height;
-    for (const double share : {1e-6, 1.}) {
-        m.volume_fraction = share;
-        printf("phi %g peak %g (%g)\n", share, deposit(m).peak_height, peak);
-    }
+    m.volume_fraction = 1e-6;
+    const double strong = deposit_of_friction(m.mu_2).peak_height;
+    EXPECT_NEAR(deposit(m).peak_height, strong, 0.02 * strong);
+    m.volume_fraction = 1;
+    const double usual = deposit(beads()).peak_height;
+    EXPECT_NEAR(deposit(m).peak_height, usual, 0.02 * usual);
 }
 
-// Dam break: the front approaches 2 sqrt(g H) from below, and nothing comes to rest.
+TEST(Materials, OneOfTenIsAsIfItWereAlone) {
+    std::vector<double> x[2];
+    for (const int materials : {1, 10}) {
+        Sim sim(config(Collapse::length / resolution));
+        int32_t last = 0;
+        for (int k = 1; k <= materials; ++k) {
+            gp_material m = beads();
+            m.grain_density = k == materials ? 2000 : 1000. * k;
+            m.mu_s = k == materials ? 0.4 : 0.1 * k;
+            m.mu_2 = 2;
+            last = sim.material(m);
+        }
+        sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height, last);
+        sim.add(floor_at(0, -0.6, 0.6));
+        sim.run(0.3);
+        x[materials > 1] = sim.field(GP_FIELD_X);
+    }
+    EXPECT_EQ(x[0], x[1]);
+}
+
+// Dam break: no arrest, and a front that approaches 2 sqrt(g H) (Ritter 1892) from below. It does so within twice the time
+// sqrt(H / g) in which the column falls.
 TEST(NoFriction, IsADamBreak) {
     const double h = 0.08, dl = h / 16;
     Sim sim(config(dl));
@@ -82,30 +102,35 @@ TEST(NoFriction, IsADamBreak) {
     sim.add(floor_at(0, -0.1, 2, GP_WALL_FREE_SLIP));
     sim.add(plate(0, 0, 0, 2 * h, GP_WALL_FREE_SLIP));
     const double unit = 2 * std::sqrt(9.81 * h), time = std::sqrt(h / 9.81);
-    const double energy = Collapse::density * 9.81 * 2 * h * h * h / 2;
-    double front = 2 * h;
-    for (int k = 1; k <= 6; ++k) {
+    const gp_state start = sim.state();
+    const double energy = start.potential + start.elastic;
+    double front = 2 * h, before = 0;
+    for (int k = 1; k <= 8; ++k) {
         sim.run(k * time / 2);
         const std::vector<double> x = sim.field(GP_FIELD_X);
         const double now = *std::max_element(x.begin(), x.end());
-        const gp_state s = sim.state();
-        printf("t %g front speed %g of 2 sqrt(gH), E %g\n", k * .5, (now - front) / (time / 2) / unit,
-               (s.kinetic + s.potential + s.elastic) / energy);
+        const double speed = (now - front) / (time / 2) / unit;
+        EXPECT_LT(speed, 1);
+        EXPECT_GT(speed, 0.98 * before); // nothing brakes it
+        if (k > 3) {
+            EXPECT_GT(speed, 0.75);
+        }
         front = now;
+        before = speed;
     }
+    const gp_state s = sim.state();
+    EXPECT_EQ(s.at_rest, 0);
+    EXPECT_GT(s.kinetic + s.potential + s.elastic, 0.9 * energy); // a tenth is the scheme's own
+    EXPECT_LT(s.kinetic + s.potential + s.elastic, energy * (1 + 1e-3));
 }
 
-TEST(MuchFriction, LetsAColumnStand) {
-    for (int diff : {0, 1}) {
-        gp_config c = config(0.005);
-        if (!diff)
-            c.density_diffusion = 0;
-        Sim sim(c);
-        sim.column(-0.04, 0, 0.08, 0.05, sim.material(1.5, 1.5));
-        sim.add(floor_at(0, -0.4, 0.4));
-        sim.run(0.5);
-        const gp_state s = sim.state();
-        printf("peak/H %g width %g ke %g\n", s.peak_height / 0.05, (s.x_right - s.x_left) / 0.08,
-               s.kinetic / Collapse::energy);
-    }
+// mu >= 1 holds a free vertical face. The exact static state, no stress across and the weight upright, is not that of the
+// hydrostatic start: what the release of its pressure tears open has no strength, and the column crumbles to about .8 H. It should
+// stand; what is asserted is what is true: it does not flow out as beads do, and stops.
+TEST(MuchFriction, CrumblesButStops) {
+    gp_material m = beads();
+    m.mu_s = m.mu_2 = 1.5;
+    const gp_state strong = deposit(m, 2), weak = deposit(beads());
+    EXPECT_GT(strong.peak_height, 0.7 * Collapse::height);
+    EXPECT_LT(strong.x_right - strong.x_left, 0.9 * (weak.x_right - weak.x_left));
 }
