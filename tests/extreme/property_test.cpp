@@ -447,7 +447,7 @@ TEST(RandomScenes, AreRefusedOrRun) {
     if (count >= 1000) { // what is drawn is not refused for the most part
         EXPECT_GT(tally.ran, tally.scenes / 2);
         EXPECT_GT(tally.refused, 0);
-        EXPECT_GT(tally.energies, tally.scenes / 20);
+        EXPECT_GT(tally.energies, tally.scenes / 40);
     }
 }
 
