@@ -28,7 +28,7 @@ gp_config default_config(int32_t preset) {
     config.zero_energy_penalty = 0.02;
     config.density_diffusion = 0.2;
     config.bulk_viscosity = 0.2;
-    config.implicit_tolerance = 1e-6;
+    config.implicit_tolerance = 1e-5;
     config.implicit_iterations = 100;
     if (preset != GP_PRESET_DEFAULT) {
         config.density_diffusion = 0;

@@ -55,7 +55,7 @@ struct alignas(64) BlockSums {
     double unbalanced = 0;     // kg/m, mass of the particles that forces and pushes together still accelerate
     double collision_loss = 0; // J/m
     double side_walls = 0;     // J/m, dissipated by the friction of side walls
-    double scheme = 0;         // J/m, lost by the implicit solve beside friction
+    double lost = 0;           // J/m, kinetic energy lost in the implicit solve
     int64_t collisions = 0;    // counted from both sides
     double kinetic = 0;        // J/m
     double densest = 0;        // largest density over the material's own

@@ -87,6 +87,7 @@ GP_API int32_t gp_has_feature(const char *name);
 
 /* Presets: which scheme gp_config_init describes. The scheme itself follows from nonlocal, stress and density:
  *   1, GP_STRESS_ELASTIC, GP_DENSITY_CONTINUITY: the default;
+ *   1, GP_STRESS_IMPLICIT, GP_DENSITY_CONTINUITY: the same with the regularised law in place of the yield surface;
  *   1, GP_STRESS_REGULARIZED, GP_DENSITY_NUMBER: the non-local scheme of [1];
  *   0, GP_STRESS_REGULARIZED, GP_DENSITY_NUMBER: its local model.
  * Any other combination is GP_E_UNSUPPORTED at gp_create. The schemes of [1] are there to compare with: they do not come
@@ -103,7 +104,9 @@ enum {
 enum {
     GP_STRESS_ELASTIC = 0,     /* elastic trial with the mu(I) return map of [2]: a true yield, no regularisation */
     GP_STRESS_REGULARIZED = 1, /* tau = eta_r D of [1] 3.6, explicit: no yield, creep at rest */
-    GP_STRESS_IMPLICIT = 2     /* eta_r of [1], implicit; not yet: GP_E_UNSUPPORTED at gp_create */
+    GP_STRESS_IMPLICIT = 2     /* tau = eta_r dev D, solved for the velocity at the end of the step: no yield either, but
+                                  a creep in proportion to delta and no limit on the time step. The check on the first:
+                                  10 .. 50 times its work, the more the smaller delta */
 };
 
 /* How the density is found. */
@@ -131,7 +134,8 @@ typedef struct gp_config {
     int32_t density;             /* GP_DENSITY_... [GP_DENSITY_CONTINUITY] */
     double friction_factor;      /* multiplies mu(I): [1] equation 3.12 as printed amounts to 2; 0 .. 10 [1] */
     double delta;                /* 1/s, regularisation of the viscosity ([1] 3.6); with GP_STRESS_ELASTIC only of the
-                                    reported one; > 0 [1e-6] */
+                                    reported one; with GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0
+                                    [1e-6] */
     double collision_distance;   /* dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9] */
     double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5
                                     [the scheme's own: 0.02] */
@@ -155,7 +159,8 @@ typedef struct gp_config {
     double bulk_viscosity;       /* of volume changes under pressure and, inside the yield surface, of shear, in rho c0 dl:
                                     it damps elastic waves and does not act at rest; 0: off; 0 .. 1 [the scheme's own: 0.2] */
     double implicit_tolerance;   /* with GP_STRESS_IMPLICIT: the solve of a step has converged when what is left of the
-                                    momentum balance is below this share of the forces in it; 1e-12 .. 1e-2 [1e-6] */
+                                    momentum balance is below this share of the forces in it (root mean squares), and the
+                                    rates fit the stress to its root; 1e-12 .. 1e-2 [1e-5] */
     int32_t implicit_iterations; /* with GP_STRESS_IMPLICIT: Newton steps that one solve may take; a solve that needs more
                                     is GP_E_DIVERGED; 1 .. 10000 [100] */
     int32_t allow_unstable_step; /* 1: a demanded time_step or cfl beyond the stable limit is taken, with a warning; 0: it
@@ -404,7 +409,8 @@ typedef struct gp_state {
     int64_t collisions;            /* colliding pairs so far ([1] 2.9), each step's counted anew */
     double wall_seconds;           /* s of wall-clock time inside the steps so far */
     double sound_speed;            /* m/s, c0 in use */
-    double penalty_dissipated;     /* J/m, the part of dissipated that the zero-energy penalty took */
+    double penalty_dissipated;     /* J/m, the part of dissipated that the zero-energy penalty took, and with
+                                      GP_STRESS_IMPLICIT the like of it in the solve */
     double wall_dissipated;        /* J/m, the part of the extrapolation at plates, of either sign */
     double diffusion_dissipated;   /* J/m, the part that density diffusion took */
     double bulk_dissipated;        /* J/m, the part that the bulk viscosity took */

@@ -306,7 +306,6 @@ void mark_regular(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     const Rows rows(world);
-    v.regular.resize(p.count);
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             double kxx = 0, kxy = 0, kyy = 0;
@@ -352,11 +351,27 @@ GP_MULTIVERSION void diagonal_rows(const View &v, const double *__restrict kxx, 
     }
 }
 
+void make_room(World &world) {
+    ViscousSystem &v = world.viscous;
+    const int64_t n = world.particles.count, with_images = n + world.images.count;
+    for (VectorField *field : {&v.target, &v.rate, &v.stress, &v.force, &v.rate_change, &v.residual, &v.image, &v.bend})
+        field->resize(n);
+    for (VectorField *field : {&v.velocity, &v.change, &v.direction})
+        field->resize(with_images);
+    for (Field<double> *field :
+         {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.lxx, &v.lxy, &v.lyx, &v.lyy, &v.pressure, &v.regular})
+        field->resize(n);
+    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness})
+        field->resize(with_images);
+    v.partial.resize(block_count(n));
+}
+
 } // namespace
 
 void make_viscous_system(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
+    make_room(world);
     v.pair.resize(static_cast<int64_t>(world.neighbors.index.size()));
     v.pair_weight.resize(v.pair.x.size());
     const Rows rows(world);
@@ -365,7 +380,6 @@ void make_viscous_system(World &world) {
                   v.pair_weight.data(), begin, end);
     });
     make_ghosts(world);
-    v.pressure.resize(p.count);
     find_yield_pressure(world);
     mark_regular(world);
 }

@@ -43,20 +43,6 @@ double inertia(const World &world, int64_t i) {
     return world.material_of(i).density / world.clock.dt; // N s/m4
 }
 
-void make_room(World &world) {
-    ViscousSystem &v = world.viscous;
-    const int64_t n = world.particles.count, with_images = n + world.images.count;
-    for (VectorField *field : {&v.target, &v.rate, &v.stress, &v.force, &v.rate_change, &v.residual, &v.image, &v.bend})
-        field->resize(n);
-    for (VectorField *field : {&v.velocity, &v.change, &v.direction})
-        field->resize(with_images);
-    for (Field<double> *field : {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
-        field->resize(n);
-    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness})
-        field->resize(with_images);
-    v.partial.resize(block_count(n));
-}
-
 // rho (u* - u) / dt + f: into residual.
 void momentum_residual(World &world) {
     ViscousSystem &v = world.viscous;
@@ -303,7 +289,6 @@ void viscous_system(World &world) {
 void viscous_solve(World &world) {
     Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
-    make_room(world);
     solve(world);
 
     const double dt = world.clock.dt;
@@ -319,7 +304,7 @@ void viscous_solve(World &world) {
         plate_power += p.volume * power;
     }
     world.sums.front().total_power += plate_power;
-    world.ledger.dissipated += dt * plate_power;
+    const double work = p.volume * dot(world, v.velocity, v.force);
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         double plastic = 0, lost = 0;
         for (int64_t i = begin; i < end; ++i) {
@@ -331,10 +316,17 @@ void viscous_solve(World &world) {
             plastic += 2.0 * (v.stress.x[i] * v.rate.x[i] + v.stress.y[i] * v.rate.y[i]);
         }
         world.sums[block].plastic = p.volume * plastic * dt;
-        world.sums[block].scheme = p.volume * lost - world.sums[block].plastic;
+        world.sums[block].lost = p.volume * lost;
     });
-    for (const BlockSums &block : world.sums)
-        world.ledger.dissipated += block.scheme;
+    // The adjoint operators' balance: what the plates do goes into s : D, into the hidden motion and into the material. The
+    // step's own loss (that of a backward step) is the rest of what the material has lost.
+    double plastic = 0, lost = 0;
+    for (const BlockSums &block : world.sums) {
+        plastic += block.plastic;
+        lost += block.lost;
+    }
+    world.ledger.penalty += dt * (plate_power - work) - plastic;
+    world.ledger.dissipated += dt * plate_power + lost - plastic; // s : D joins in account
 }
 
 } // namespace gp::stages

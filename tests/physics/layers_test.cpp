@@ -2,66 +2,13 @@
 // with its exact solution, row by row; bench/exact runs the same cases at any resolution.
 #include <algorithm>
 
-#include "../support/scene.hpp"
+#include "../support/layer.hpp"
 
 using namespace test;
 
 namespace {
 
 constexpr double density = 1550, gravity = 9.81, grain_density = 2500;
-
-struct Law {
-    double mu_s = std::tan(degrees(21)), mu_2 = std::tan(degrees(32)), i0 = 0.3, d = 0.002;
-    double mu(double inertial) const { return mu_s + (mu_2 - mu_s) * inertial / (i0 + inertial); }
-    double inertial(double mu) const { return i0 * (mu - mu_s) / (mu_2 - mu); }
-};
-
-// Rows of particles, each a column, between y = 0 and thickness; a rough floor.
-struct Layer {
-    static constexpr int across = 12;
-    template <class Velocity>
-    Layer(int rows, double thickness, double gx, double gy, double sound_speed, double d, const Velocity &velocity,
-          int threads = 1)
-        : spacing(thickness / rows), width(across * spacing), sim([&] {
-              gp_config c = config(thickness / rows);
-              c.gravity_x = gx;
-              c.gravity_y = gy;
-              c.sound_speed = sound_speed;
-              c.periodic_x_max = across * c.spacing;
-              c.threads = threads;
-              return c;
-          }()) {
-        gp_material beads;
-        gp_material_init(&beads, sizeof beads);
-        beads.grain_diameter = d;
-        const int32_t id = sim.material(beads);
-        for (int k = 0; k < rows; ++k)
-            sim.column(0, k * spacing, width, spacing, id, velocity((k + 0.5) * spacing));
-    }
-    void lid(double y, double load, double vx) {
-        gp_plate p = plate(0, y, width, y);
-        p.normal_pressure = load;
-        p.vx = vx;
-        sim.add(p);
-    }
-    int32_t floor(double vx = 0) {
-        gp_plate p = plate(width, 0, 0, 0);
-        p.vx = vx;
-        return sim.add(p);
-    }
-    // Mean over the uppermost twentieth of the rows, at least one, of value over exact.
-    template <class Exact> double surface_ratio(int rows, const Exact &exact) {
-        const std::vector<double> u = sim.field(GP_FIELD_VX), y = sim.field(GP_FIELD_Y);
-        double sum = 0, reference = 0;
-        for (std::size_t i = u.size() - static_cast<std::size_t>(across * std::max(1, rows / 20)); i < u.size(); ++i) {
-            sum += u[i];
-            reference += exact(y[i]);
-        }
-        return sum / reference;
-    }
-    double spacing, width;
-    Sim sim;
-};
 
 } // namespace
 

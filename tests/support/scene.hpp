@@ -111,15 +111,18 @@ struct Collapse {
     static constexpr double length = 0.08, height = 0.05, density = 1550, gravity = 9.81;
     static constexpr double energy = density * gravity * length * height * height / 2; // J/m
     static constexpr double base_pressure = density * gravity * height;                // Pa
-    Collapse(int resolution, double mu_s_degrees = 21, double mu_2_degrees = 32, int threads = 1)
+    Collapse(int resolution, double mu_s_degrees = 21, double mu_2_degrees = 32, int threads = 1,
+             int32_t stress = GP_STRESS_ELASTIC, double delta = 1e-6, const gp_plate *floor = nullptr)
         : sim([&] {
               gp_config c = config(length / resolution);
               c.threads = threads;
+              c.stress = stress;
+              c.delta = delta;
               return c;
           }()) {
         const int32_t beads = sim.material(std::tan(degrees(mu_s_degrees)), std::tan(degrees(mu_2_degrees)));
         sim.column(-length / 2, 0, length, height, beads);
-        sim.add(floor_at(0, -0.4, 0.4));
+        sim.add(floor ? *floor : floor_at(0, -0.4, 0.4));
     }
     Sim sim;
 };

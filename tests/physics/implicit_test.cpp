@@ -1,0 +1,180 @@
+// GP_STRESS_IMPLICIT: the regularised law solved implicitly, as the check on the return map.
+#include <cstring>
+#include <string>
+
+#include "../support/layer.hpp"
+
+using namespace test;
+
+// On a floor with Coulomb friction, where both schemes have the same wall: law against law. (delta = 1e-2 has crept by
+// .1 % of the peak by then; 1e-3 and 1e-4 take 3 and 10 times as long.)
+TEST(Implicit, LeavesTheDepositOfTheReturnMap) {
+    gp_plate floor = floor_at(0, -0.4, 0.4, GP_WALL_COULOMB);
+    floor.wall_mu = 0.5;
+    Collapse elastic(32, 21, 32, 1, GP_STRESS_ELASTIC, 1e-6, &floor);
+    Collapse implicit(32, 21, 32, 1, GP_STRESS_IMPLICIT, 1e-2, &floor);
+    elastic.sim.run(0.42);
+    implicit.sim.run(0.42);
+    const gp_state a = elastic.sim.state(), b = implicit.sim.state();
+    EXPECT_NEAR(b.peak_height, a.peak_height, 0.01 * a.peak_height);
+    EXPECT_LT(std::abs(b.energy_error), 0.005 * Collapse::energy);
+    EXPECT_LT(b.penalty_dissipated, 0.03 * b.dissipated);
+    EXPECT_EQ(b.implicit_failures, 0);
+    EXPECT_GT(b.implicit_newton, b.step / 2);
+    EXPECT_LE(b.implicit_residual, 1e-5);
+}
+
+// On a rough floor the schemes have walls of their own, and approach each other with the spacing: the peak differs by -.2,
+// -2, -.8 % at L/dl = 16, 32, 64.
+TEST(Implicit, ComesToRestOnARoughFloor) {
+    Collapse elastic(16);
+    Collapse implicit(16, 21, 32, 1, GP_STRESS_IMPLICIT, 1e-4);
+    elastic.sim.run(0.42);
+    implicit.sim.run(0.42);
+    const double peak = elastic.sim.state().peak_height;
+    EXPECT_NEAR(implicit.sim.state().peak_height, peak, 0.02 * peak);
+    const double arrested = implicit.sim.state().peak_height;
+    implicit.sim.run(0.8);
+    EXPECT_LT(implicit.sim.state().kinetic, 1e-6 * Collapse::energy);
+    EXPECT_NEAR(implicit.sim.state().peak_height, arrested, 0.002 * arrested);
+}
+
+// Below the friction angle, tan theta = t: the regularised law flows at u' = 2 delta t / sqrt(mu_s^2 - t^2).
+TEST(Implicit, CreepsInProportionToDelta) {
+    const double angle = degrees(20), thickness = 0.04, t = std::tan(angle), mu = std::tan(degrees(21));
+    double last = 0;
+    for (const double delta : {1e-2, 1e-4, 1e-6}) {
+        Layer layer(
+            10, thickness, 9.81 * std::sin(angle), -9.81 * std::cos(angle), 10, 0.002, [](double) { return 0.0; }, 1,
+            GP_STRESS_IMPLICIT, delta);
+        layer.floor();
+        layer.sim.run(0.5);
+        const double exact = 2 * delta * t / std::sqrt(mu * mu - t * t);
+        const double surface = layer.surface_ratio(10, [&](double y) { return exact * y; });
+        // The uppermost row, without pressure, goes along with the one below it: 2 spacings of 20 half spacings.
+        EXPECT_NEAR(surface, 0.95, 0.1) << delta;
+        if (last > 0) {
+            EXPECT_NEAR(surface, last, 0.05 * last) << delta;
+        }
+        last = surface;
+    }
+}
+
+TEST(Implicit, ShearsALayerBetweenPlatesLinearly) {
+    const double load = 500, h = 0.04, rate = 50;
+    Layer box(
+        20, h, 0, 0, 21, 0.002, [&](double y) { return rate * (y - h / 2); }, 1, GP_STRESS_IMPLICIT, 1e-4);
+    const int32_t floor = box.floor(-rate * h / 2);
+    box.lid(h, load, rate * h / 2);
+    box.sim.run(0.1);
+    const gp_load before = box.sim.load(floor);
+    box.sim.run(0.2);
+    const gp_load after = box.sim.load(floor);
+    const Law law;
+    const double mu =
+        law.mu(law.d * rate / std::sqrt(load / 2500)); // I = 2 d |gamma| / sqrt(p / rho_s), |gamma| = u'/2
+    const double shear = (after.impulse_x - before.impulse_x) / 0.1 / box.width;
+    EXPECT_NEAR(shear, mu * load, 0.01 * mu * load);
+    const std::vector<double> u = box.sim.field(GP_FIELD_VX), y = box.sim.field(GP_FIELD_Y);
+    // The plates' surfaces are where they are to half a spacing, and the rate between them is uniform.
+    double top = 0, bottom = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        EXPECT_NEAR(u[i], rate * (y[i] - h / 2), 0.5 * rate * box.spacing) << y[i];
+        if (std::abs(y[i] - 0.75 * h) < 0.51 * box.spacing)
+            top = u[i] / (y[i] - h / 2);
+        if (std::abs(y[i] - 0.25 * h) < 0.51 * box.spacing)
+            bottom = u[i] / (y[i] - h / 2);
+    }
+    EXPECT_NEAR(top, rate, 0.03 * rate);
+    EXPECT_NEAR(bottom, top, 1e-3 * rate);
+}
+
+TEST(Implicit, SolvesStiffLawsAlike) {
+    std::vector<double> reference;
+    for (const double delta : {1e-8, 1e-12}) {
+        Collapse collapse(8, 21, 32, 1, GP_STRESS_IMPLICIT, delta);
+        collapse.sim.run(0.1);
+        const std::vector<double> y = collapse.sim.field(GP_FIELD_Y);
+        for (std::size_t i = 0; i < reference.size(); ++i)
+            EXPECT_NEAR(y[i], reference[i], 0.05 * Collapse::length / 8);
+        reference = y;
+        EXPECT_EQ(collapse.sim.state().implicit_failures, 0);
+    }
+}
+
+TEST(Implicit, KeepsMomentumWithoutPlates) {
+    gp_config c = config(0.01);
+    c.stress = GP_STRESS_IMPLICIT;
+    c.gravity_y = 0;
+    c.sound_speed = 10;
+    Sim sim(c);
+    sim.column(0, 0, 0.1, 0.1, 0, 0.5, 0.2);
+    sim.column(0.1, 0.03, 0.1, 0.05, 0, -0.3, 0.1);
+    const gp_state before = sim.state();
+    sim.run(0.05);
+    const gp_state after = sim.state();
+    const double scale = 1550 * 0.015 * 0.5;
+    EXPECT_NEAR(after.momentum_x, before.momentum_x, 1e-12 * scale);
+    EXPECT_NEAR(after.momentum_y, before.momentum_y, 1e-12 * scale);
+    EXPECT_GT(after.dissipated, 0);
+    EXPECT_LT(after.kinetic, before.kinetic);
+}
+
+TEST(Implicit, HasTheSameBitsForAnyNumberOfThreads) {
+    std::vector<double> reference;
+    for (const int threads : {1, 2}) {
+        Collapse collapse(48, 21, 32, threads, GP_STRESS_IMPLICIT, 1e-2);
+        collapse.sim.step(40);
+        const std::vector<double> vx = collapse.sim.field(GP_FIELD_VX);
+        for (std::size_t i = 0; i < reference.size(); ++i)
+            ASSERT_EQ(vx[i], reference[i]) << i;
+        reference = vx;
+    }
+}
+
+TEST(Implicit, ThatDoesNotConvergeIsAnError) {
+    gp_config c = config(0.005);
+    c.stress = GP_STRESS_IMPLICIT;
+    c.implicit_iterations = 2;
+    c.implicit_tolerance = 1e-12;
+    Sim sim(c);
+    sim.column(0, 0, 0.05, 0.05);
+    sim.add(floor_at(0, -0.2, 0.3));
+    gp_status status = GP_OK;
+    std::vector<double> x, vy;
+    double time = 0;
+    for (int k = 0; k < 200 && status == GP_OK; ++k) {
+        x = sim.field(GP_FIELD_X);
+        vy = sim.field(GP_FIELD_VY);
+        time = sim.state().time;
+        status = gp_step(sim, 1);
+    }
+    ASSERT_EQ(status, GP_E_DIVERGED);
+    EXPECT_NE(std::string(gp_last_error()).find("viscous_solve"), std::string::npos) << gp_last_error();
+    EXPECT_NE(std::string(gp_last_error()).find("implicit_iterations"), std::string::npos);
+    EXPECT_EQ(sim.state().implicit_failures, 1);
+    EXPECT_EQ(sim.state().time, time);
+    EXPECT_EQ(sim.field(GP_FIELD_X), x); // as at the last good step
+    EXPECT_EQ(sim.field(GP_FIELD_VY), vy);
+}
+
+TEST(Implicit, PlanNamesTheSolveAndWhatItReplaces) {
+    Collapse collapse(8, 21, 32, 1, GP_STRESS_IMPLICIT);
+    collapse.sim.step(3);
+    int64_t n = 0;
+    ASSERT_EQ(gp_get_plan(collapse.sim, 0, nullptr, &n), GP_OK);
+    std::vector<gp_plan_entry> plan(static_cast<std::size_t>(n));
+    ASSERT_EQ(gp_get_plan(collapse.sim, n, plan.data(), &n), GP_OK);
+    bool solves = false, maps = false;
+    for (const gp_plan_entry &entry : plan) {
+        if (!std::strcmp(entry.name, "viscous_solve"))
+            solves = entry.active == 1 && entry.calls == 3;
+        if (!std::strcmp(entry.name, "stress"))
+            maps = entry.active != 0;
+        if (!std::strcmp(entry.name, "viscous_system") && entry.kind == 1) {
+            EXPECT_GT(entry.bytes, 0);
+        }
+    }
+    EXPECT_TRUE(solves);
+    EXPECT_FALSE(maps);
+}
