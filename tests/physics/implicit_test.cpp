@@ -39,6 +39,28 @@ TEST(Implicit, ComesToRestOnARoughFloor) {
     EXPECT_NEAR(implicit.sim.state().peak_height, arrested, 0.002 * arrested);
 }
 
+// With mu_s > 1 the uniaxial stress of a free column, tau = p, is within the yield surface: it stands on its own. (In the
+// default scheme the wave of the start tears its faces, and torn material falls: tests/extreme/materials_test.cpp.)
+TEST(Implicit, HoldsAVerticalFaceWhereFrictionCan) {
+    for (const double mu : {1.07, 1.5})
+        for (const double jitter : {0.0, 0.1}) {
+            gp_config c = config(Collapse::length / 16);
+            c.stress = GP_STRESS_IMPLICIT;
+            c.delta = 1e-4;
+            c.jitter = jitter;
+            Sim sim(c);
+            sim.column(-0.04, 0, 0.08, 0.05, sim.material(mu, mu));
+            sim.add(floor_at(0, -0.4, 0.4));
+            const gp_state before = sim.state();
+            sim.run(0.3);
+            const gp_state after = sim.state();
+            EXPECT_NEAR(after.peak_height, before.peak_height, 0.01 * c.spacing) << mu << " " << jitter;
+            EXPECT_NEAR(after.x_right, before.x_right, 0.05 * c.spacing) << mu << " " << jitter;
+            EXPECT_NEAR(after.x_left, before.x_left, 0.05 * c.spacing) << mu << " " << jitter;
+            EXPECT_LT(after.kinetic, 1e-8 * Collapse::energy) << mu << " " << jitter;
+        }
+}
+
 // Below the friction angle, tan theta = t: the regularised law flows at u' = 2 delta t / sqrt(mu_s^2 - t^2).
 TEST(Implicit, CreepsInProportionToDelta) {
     const double angle = degrees(20), thickness = 0.04, t = std::tan(angle), mu = std::tan(degrees(21));
