@@ -309,13 +309,12 @@ double nearest_pair(gp_sim *sim) {
 std::string description(uint64_t seed, const Drawn &s) {
     std::ostringstream text;
     text << "GRANPERI_SEED=" << seed << " GRANPERI_SCENES=1; preset " << s.config.preset << ", stress "
-         << s.config.stress << ", delta " << s.config.delta << ", dl " << s.config.spacing
-         << ", g (" << s.config.gravity_x << ", " << s.config.gravity_y << "), c " << s.config.sound_speed
-         << ", horizon " << s.config.horizon << ", cfl " << s.config.cfl << ", collisions "
-         << s.config.collision_distance << ", penalty " << s.config.zero_energy_penalty << ", diffusion "
-         << s.config.density_diffusion << ", bulk " << s.config.bulk_viscosity << ", period "
-         << s.config.periodic_x_max - s.config.periodic_x_min << ", channel " << s.config.channel_width << ", jitter "
-         << s.config.jitter;
+         << s.config.stress << ", delta " << s.config.delta << ", dl " << s.config.spacing << ", g ("
+         << s.config.gravity_x << ", " << s.config.gravity_y << "), c " << s.config.sound_speed << ", horizon "
+         << s.config.horizon << ", cfl " << s.config.cfl << ", collisions " << s.config.collision_distance
+         << ", penalty " << s.config.zero_energy_penalty << ", diffusion " << s.config.density_diffusion << ", bulk "
+         << s.config.bulk_viscosity << ", period " << s.config.periodic_x_max - s.config.periodic_x_min << ", channel "
+         << s.config.channel_width << ", jitter " << s.config.jitter;
     for (const gp_material &m : s.materials)
         text << "; material of " << m.grain_density * m.volume_fraction << " kg/m3";
     for (const gp_column &c : s.columns)
@@ -352,7 +351,7 @@ struct Tally {
     int64_t scenes = 0, refused = 0, refused_at_step = 0, ran = 0;
     int64_t of_kind[kinds] = {}, diverged[kinds] = {};
     int64_t unconverged = 0; // of the diverged implicit ones: the solve
-    int64_t energies = 0; // scenes whose energy was checked
+    int64_t energies = 0;    // scenes whose energy was checked
     double worst_energy = -1, worst_error = 0, worst_momentum = 0;
 };
 
