@@ -26,6 +26,7 @@ struct View {
     const double *density;
     double inverse_radius, rate;
     double hydrostatic_x, hydrostatic_y; // g / c0^2, 1/m
+    double largest_pace;                 // sum of w
     double *change;
 };
 
@@ -58,8 +59,8 @@ GP_MULTIVERSION void exchange(const View &v, int64_t begin, int64_t end) {
             pace += share * w;
             sum += share * w * (there - here - borne * (half_x * dx + half_y * dy));
         }
-        // Not beyond the mean of the neighbours: more than the time step counts on they are on top of each other only.
-        v.change[i] = v.rate * pace > 1 ? sum / pace : v.rate * sum;
+        // Beyond this particles are on top of each other: more neighbours than the time step counts on.
+        v.change[i] = v.rate * (pace > v.largest_pace ? v.largest_pace / pace * sum : sum);
     }
 }
 
@@ -89,6 +90,7 @@ void density_diffusion(World &world) {
                         c.lattice.second_moment,
                     c.gravity.x() / c2,
                     c.gravity.y() / c2,
+                    1.5 * c.lattice.number_density, // with the stable step less than all of the difference to the mean
                     p.cxx.data()};
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
