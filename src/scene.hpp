@@ -93,6 +93,7 @@ struct Constants {
     double plate_mass;               // kg/m2, of a loaded plate that has none of its own
     double plate_step;               // s, largest step that is stable for the lightest loaded plate
     double viscous_step;             // s, largest step that is stable for the coefficients that damp
+    double contrast_step;            // s, largest step that is stable where materials of different density meet
     double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;

@@ -368,7 +368,8 @@ GP_API gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t
 /* What set the time step. */
 enum {
     GP_DT_NONE = 0,      /* no step taken yet */
-    GP_DT_SOUND = 1,     /* elastic waves: cfl dl / wave speed */
+    GP_DT_SOUND = 1,     /* elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the
+                            lighter is pushed by the stiffness of the heavier (horizon 4: from a ratio of about 10 on) */
     GP_DT_FLOW = 2,      /* relative motion: a quarter spacing per step */
     GP_DT_PLATE = 3,     /* the inertia of a loaded plate */
     GP_DT_VISCOSITY = 4, /* bulk_viscosity, zero_energy_penalty or density_diffusion */

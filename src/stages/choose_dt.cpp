@@ -75,7 +75,7 @@ std::string fastest_of(const World &world) {
 
 double stable_dt(const Constants &constants) {
     return std::min({cfl_of(constants).stable * constants.spacing / constants.wave_speed, constants.viscous_step,
-                     constants.plate_step});
+                     constants.contrast_step, constants.plate_step});
 }
 
 void require_moderate_flow(const World &world) {
@@ -114,6 +114,7 @@ void choose_dt(World &world) {
         if (!config.allow_unstable_step || config.cfl == 0) {
             limit(c.plate_step, GP_DT_PLATE);
             limit(c.viscous_step, GP_DT_VISCOSITY);
+            limit(c.contrast_step, GP_DT_SOUND);
         }
         if (world.velocity_span > 0)
             limit(flow_share * c.spacing / world.velocity_span, GP_DT_FLOW);

@@ -6,7 +6,9 @@
 // a spike for a slope. Pairs with material inside its yield surface are left alone: diffusion at rest would be a pump.
 // What is exchanged is the excess over rho0, continuous with the pressure also where materials of different density meet:
 // there both change their relative volume by the same amount, as p d rho / rho is the energy that they exchange (the same
-// amount of rho in both made energy: half of all there was, between densities of 1 and 40).
+// amount of rho in both made energy: half of all there was, between densities of 1 and 40). Of the stretched there is no
+// pressure to be continuous: there it is rho / rho0, in the lighter one's measure (by the excess, a heavy particle of half
+// its density took the light ones beside it below zero).
 #include <cmath>
 
 #include "kernel.hpp"
@@ -24,6 +26,7 @@ struct View {
     const double *density;
     double inverse_radius, rate;
     double hydrostatic_x, hydrostatic_y; // g / c0^2, 1/m
+    double largest_pace;                 // sum of w
     double *change;
 };
 
@@ -41,18 +44,23 @@ GP_MULTIVERSION void exchange(const View &v, int64_t begin, int64_t end) {
         const double inverse_radius = v.inverse_radius;
         // Weight counts between particles that both bear some.
         const double half_x = own > 0 ? 0.5 * v.hydrostatic_x : 0.0, half_y = own > 0 ? 0.5 * v.hydrostatic_y : 0.0;
-        double sum = 0;
-#pragma omp simd reduction(+ : sum)
+        double sum = 0, pace = 0;
+#pragma omp simd reduction(+ : sum, pace)
         for (int64_t k = 0; k < n; ++k) {
             const int32_t j = row[k];
             const double dx = x[j] - xi, dy = y[j] - yi;
             const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius) * flowing[j];
             const double borne = excess[j] > 0 ? own_density + density[j] : 0.0;
-            const double share =
-                own_rest / (own_rest > rest[j] ? own_rest : rest[j]); // the denser one's pace is stable
-            sum += share * w * (excess[j] - own - borne * (half_x * dx + half_y * dy));
+            const bool denser = own_rest > rest[j];
+            const double share = own_rest / (denser ? own_rest : rest[j]); // the denser one's pace is stable
+            const double lighter = denser ? rest[j] : own_rest;
+            const double there = excess[j] < 0 ? excess[j] * (lighter / rest[j]) : excess[j];
+            const double here = own < 0 ? own * (lighter / own_rest) : own;
+            pace += share * w;
+            sum += share * w * (there - here - borne * (half_x * dx + half_y * dy));
         }
-        v.change[i] = v.rate * sum;
+        // Beyond this particles are on top of each other: more neighbours than the time step counts on.
+        v.change[i] = v.rate * (pace > v.largest_pace ? v.largest_pace / pace * sum : sum);
     }
 }
 
@@ -82,6 +90,7 @@ void density_diffusion(World &world) {
                         c.lattice.second_moment,
                     c.gravity.x() / c2,
                     c.gravity.y() / c2,
+                    1.5 * c.lattice.number_density, // with the stable step less than all of the difference to the mean
                     p.cxx.data()};
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {

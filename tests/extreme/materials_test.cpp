@@ -93,6 +93,93 @@ TEST(Materials, OneOfTenIsAsIfItWereAlone) {
     EXPECT_EQ(x[0], x[1]);
 }
 
+namespace {
+
+enum Pattern { layers, one_light, chequerboard };
+
+// A block of 10 x 12 at a wall, of beads and of a material lighter by `ratio`.
+void add_two_densities(Sim &sim, double dl, double ratio, Pattern pattern) {
+    gp_material light = beads();
+    light.grain_density /= ratio;
+    const int32_t materials[] = {0, sim.material(light)};
+    std::vector<double> x[2], y[2];
+    for (int j = 0; j < 12; ++j)
+        for (int i = 0; i < 10; ++i) {
+            const bool is_light = pattern == layers      ? j >= 6
+                                  : pattern == one_light ? i == 5 && j == 5
+                                                         : (i + j) % 2 == 1;
+            x[is_light].push_back((i + 0.5) * dl);
+            y[is_light].push_back((j + 0.5) * dl);
+        }
+    for (const int k : {0, 1})
+        ASSERT_EQ(gp_add_particles(sim, materials[k], static_cast<int64_t>(x[k].size()), x[k].data(), y[k].data(),
+                                   nullptr, nullptr, nullptr),
+                  GP_OK);
+    sim.add(floor_at(0, -0.5, 0.6));
+    sim.add(plate(0, -0.1, 0, 0.4));
+}
+
+} // namespace
+
+// A light grain amid heavy ones is pushed by their stiffness: at the step of one material alone these end in GP_E_DIVERGED,
+// or with energies out of nothing, from a ratio of 10 on with the shortest horizon.
+TEST(DensityRatio, MakesTheStepSmallerAndNoEnergy) {
+    const double dl = 0.01;
+    for (const double horizon : {1.8, 4.})
+        for (const Pattern pattern : {layers, one_light, chequerboard}) {
+            double before = HUGE_VAL;
+            for (const double ratio : {1., 10., 100.}) {
+                SCOPED_TRACE(testing::Message() << "horizon " << horizon << ", pattern " << pattern << ", " << ratio);
+                gp_config c = config(dl);
+                c.horizon = horizon;
+                c.sound_speed = 20;
+                Sim sim(c);
+                add_two_densities(sim, dl, ratio, pattern);
+                const gp_state start = sim.state();
+                EXPECT_LE(start.dt_limit, before);
+                before = start.dt_limit;
+                sim.run(0.03);
+                const gp_state s = sim.state();
+                EXPECT_LT(std::abs(s.energy_error), 0.01 * start.potential);
+                EXPECT_LT(s.kinetic + s.potential + s.elastic, (1 + 1e-3) * start.potential);
+                EXPECT_LE(s.dt, start.dt_limit);
+                expect_finite(sim);
+            }
+            EXPECT_LT(before, 0.2 * dl / 20);
+        }
+}
+
+// Heavy and light grains that fly apart together are stretched alike: density diffusion evens out how much, and takes no
+// light one below zero, as it did when it evened out kg/m3.
+TEST(DensityRatio, LeavesStretchedGrainsADensity) {
+    const double dl = 0.01;
+    std::vector<double> x[2], y[2], vx[2], vy[2];
+    for (int j = 0; j < 10; ++j)
+        for (int i = 0; i < 10; ++i) {
+            const int k = (i + j) % 2;
+            x[k].push_back((i - 4.5) * dl);
+            y[k].push_back((j - 4.5) * dl);
+            vx[k].push_back(10 * (i - 4.5) * dl * (k ? 0.5 : 1)); // the heavy ones faster
+            vy[k].push_back(10 * (j - 4.5) * dl * (k ? 0.5 : 1));
+        }
+    gp_config c = config(dl);
+    c.gravity_y = 0;
+    c.sound_speed = 10;
+    c.density_diffusion = 1;
+    Sim sim(c);
+    gp_material light = beads();
+    light.grain_density /= 40;
+    const int32_t materials[] = {0, sim.material(light)};
+    for (const int k : {0, 1})
+        ASSERT_EQ(gp_add_particles(sim, materials[k], static_cast<int64_t>(x[k].size()), x[k].data(), y[k].data(),
+                                   vx[k].data(), vy[k].data(), nullptr),
+                  GP_OK);
+    sim.run(0.2);
+    for (const double density : sim.field(GP_FIELD_DENSITY))
+        EXPECT_GT(density, 0);
+    expect_finite(sim);
+}
+
 // Dam break: no arrest, and a front that approaches 2 sqrt(g H) (Ritter 1892) from below. It does so within twice the time
 // sqrt(H / g) in which the column falls.
 TEST(NoFriction, IsADamBreak) {
