@@ -62,7 +62,7 @@ static double run_out(double left, double right) {
 
 /* Outermost points at which the surface is above the threshold, of stations half a spacing apart. */
 static double front_of(gp_sim *sim, const gp_state *s, double dl, double threshold) {
-    const int64_t n = (int64_t)ceil((s->x_right - s->x_left) / (dl / 2)) + 1;
+    const int64_t n = (int64_t)ceil(fmax(0, s->x_right - s->x_left) / (dl / 2)) + 1;
     double *x = allocate(2 * n), *height = x + n, left = INFINITY, right = -INFINITY;
     int64_t k;
     for (k = 0; k < n; ++k)
@@ -83,7 +83,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* A share of the mass lies beyond each end; between two particles the quantile goes linearly. */
-static double bulk_of(gp_sim *sim, int64_t n, double share) {
+static double spread_of(gp_sim *sim, int64_t n, double share) {
     double *x = allocate(n);
     const double place = share * (double)n - 0.5, part = place - floor(place);
     const int64_t k = (int64_t)fmax(0, floor(place));
@@ -94,6 +94,17 @@ static double bulk_of(gp_sim *sim, int64_t n, double share) {
     right = x[n - 1 - k] - part * (x[n - 1 - k] - x[n - 2 - k]);
     free(x);
     return run_out(left, right);
+}
+
+static double memory_of(gp_sim *sim) {
+    enum { MOST = 200 };
+    gp_plan_entry entries[MOST];
+    int64_t n, k;
+    double bytes = 0;
+    CHECK(gp_get_plan(sim, MOST, entries, &n));
+    for (k = 0; k < n && k < MOST; ++k)
+        bytes += (double)entries[k].bytes;
+    return bytes;
 }
 
 static void write_row(FILE *table, const gp_state *s, const outcome *o, const drift *d, const roughness *r, double dl) {
@@ -138,20 +149,22 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
                 r = roughness_of(sim, 4 * dl);
             write_row(f->table, &o.state, &o, &d, &r, dl);
         }
-        if (o.state.time >= f->end || (f->steps > 0 && (double)o.state.step >= f->steps))
+        if (o.state.time >= f->end || o.state.time >= o.rest + f->rested ||
+            (f->steps > 0 && (double)o.state.step >= f->steps))
             break;
         o.status = f->steps > 0 ? gp_step(sim, (int64_t)f->steps)
                                 : gp_run(sim, fmin((double)(row + 1) * f->interval, f->end));
         if (o.status != GP_E_DIVERGED)
             CHECK(o.status);
         o.state = state_of(sim);
-        if (o.status == GP_E_DIVERGED)
+        if (o.status == GP_E_DIVERGED || o.gain > 1) /* energy from nowhere: it will not come to rest any more */
             break;
     }
     o.peak = o.state.peak_height;
     o.tip = run_out(o.state.x_left, o.state.x_right);
     o.front = front_of(sim, &o.state, dl, 0.05 * trial_height);
-    o.bulk = bulk_of(sim, o.state.n_particles, 0.01);
+    o.spread = spread_of(sim, o.state.n_particles, 0.01);
+    o.memory = memory_of(sim);
     o.drift = d.largest / dl;
     o.seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
     free(d.x);

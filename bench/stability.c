@@ -22,6 +22,7 @@ static const char usage[] =
 
 typedef struct choices {
     following follow;
+    criterion limit;
     const char *prefix;
     double seeds;
 } choices;
@@ -61,12 +62,13 @@ static void print_outcome(const outcome *o, double seconds, double particle_step
     printf("peak                %.8g m\n", o->peak);
     printf("tip                 %.8g L0\n", o->tip);
     printf("front               %.8g L0\n", o->front);
-    printf("bulk                %.8g L0\n", o->bulk);
+    printf("spread              %.8g L0\n", o->spread);
     printf("rest                %.6g s\n", o->rest);
     printf("gain                %.6g E0\n", o->gain);
     printf("error               %.6g E0\n", o->error);
     printf("kinetic             %.6g E0\n", o->kinetic);
     printf("pressure            %.6g rho g H\n", o->pressure);
+    printf("memory              %.6g bytes\n", o->memory);
     printf("drift               %.6g dl\n", o->drift);
     printf("friction_share      %.6g of dissipated\n",
            1 - (s->penalty_dissipated + s->wall_dissipated + s->diffusion_dissipated + s->bulk_dissipated +
@@ -91,7 +93,7 @@ static void run(trial *t, choices *c) {
     int k;
     memset(&first, 0, sizeof first);
     if (seeds)
-        fprintf(seeds, "seed,diverged,peak,tip,front,bulk,rest,error,gain,kinetic,pressure,steps\n");
+        fprintf(seeds, "seed,diverged,peak,tip,front,spread,rest,error,gain,kinetic,pressure,steps\n");
     for (k = 0; k < (int)c->seeds; ++k, ++t->seed) {
         gp_sim *sim = trial_create(t);
         c->follow.table = k == 0 ? open_table(c, "series") : NULL;
@@ -104,7 +106,7 @@ static void run(trial *t, choices *c) {
             first = o;
         if (seeds)
             fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
-                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.bulk, o.rest, o.error, o.gain, o.kinetic,
+                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.rest, o.error, o.gain, o.kinetic,
                     o.pressure, (long long)o.state.step);
     }
     close_table(seeds);
@@ -113,15 +115,22 @@ static void run(trial *t, choices *c) {
 
 int main(int argc, char **argv) {
     trial t;
-    choices c = {.follow = {.end = 0.8, .interval = 0.01, .drift_from = INFINITY}, .prefix = "none", .seeds = 1};
+    choices c = {.follow = {.end = 0.8, .interval = 0.01, .drift_from = INFINITY, .rested = INFINITY},
+                 .limit = {0.2, 0.7, 6, 0},
+                 .prefix = "none",
+                 .seeds = 1};
     double rough = 0;
     const bench_option own[] = {
         {"--end", "s [0.8]", BENCH_NUMBER, &c.follow.end, 1e-9, 1e6},
         {"--steps", "at most; 0: until the end [0]", BENCH_WHOLE, &c.follow.steps, 0, 1e15},
         {"--interval", "s between rows of the series [0.01]", BENCH_NUMBER, &c.follow.interval, 1e-6, 1e6},
         {"--drift-from", "s, from where displacements count [never]", BENCH_NUMBER, &c.follow.drift_from, 0, 1e6},
+        {"--rested", "s: a run that has been at rest for so long ends [never]", BENCH_NUMBER, &c.follow.rested, 0, 1e6},
         {"--rough", "1: the roughness of pressure and velocity in the series [0]", BENCH_WHOLE, &rough, 0, 1},
         {"--seeds", "runs, of --seed and those that follow it [1]", BENCH_WHOLE, &c.seeds, 1, 1e6},
+        {"--smallest", "Courant number of the reference of limit_... [0.2]", BENCH_NUMBER, &c.limit.smallest, 1e-6, 1e3},
+        {"--first", "of the first trial [0.7]", BENCH_NUMBER, &c.limit.first, 1e-6, 1e3},
+        {"--largest", "of the last [6]", BENCH_NUMBER, &c.limit.largest, 1e-6, 1e3},
         {"--output", "prefix of the tables, or none [none]", BENCH_TEXT, &c.prefix, 0, 0},
     };
     enum { OWN = sizeof own / sizeof own[0] };
@@ -143,7 +152,9 @@ int main(int argc, char **argv) {
         run(&t, &c);
     } else {
         FILE *table = open_table(&c, "trials");
-        search_limit(&t, &c.follow, table);
+        /* The last grains of a collapse are still settling; a layer has only what its jitter began. */
+        c.limit.at_rest = command == LIMIT_LAYER ? 1e-7 : 1e-5;
+        search_limit(&t, &c.follow, &c.limit, (int)c.seeds, table);
         close_table(table);
     }
     return 0;

@@ -123,6 +123,7 @@ def run_missing(studies: dict[str, list[Run]], programs: dict[str, Program], dir
         "--results", type=Path, default=directory, help=f"where results go [{directory.relative_to(ROOT)}]"
     )
     parser.add_argument("--quick", action="store_true", help=f"only runs of an estimated {QUICK:g} CPU s or less")
+    parser.add_argument("--long", action="store_true", help="also the runs that take very long")
     parser.add_argument("--only", metavar="TEXT", help="only runs with this in their name")
     parser.add_argument("--accept-older", action="store_true", help="keep results of other states of the sources")
     parser.add_argument("--workers", type=int, default=2, help="runs at a time [2]")
@@ -137,7 +138,9 @@ def run_missing(studies: dict[str, list[Run]], programs: dict[str, Program], dir
     wanted = [
         run
         for run in cheapest_first(studies)
-        if (not arguments.quick or run.cost <= QUICK) and (not arguments.only or arguments.only in run.name)
+        if (not arguments.quick or run.cost <= QUICK)
+        and (not run.long or arguments.long)
+        and (not arguments.only or arguments.only in run.name)
     ]
     missing = [
         run

@@ -25,6 +25,7 @@ class Run:
     program: str
     arguments: tuple[str, ...]
     cost: float  # CPU s, estimated
+    long: bool = False  # only run when long ones are asked for
 
 
 def cheapest_first(studies: dict[str, list[Run]]) -> list[Run]:
@@ -37,7 +38,8 @@ def list_runs(studies: dict[str, list[Run]]) -> None:
     """Prints them with their estimated costs, and the cost of each study."""
     every = cheapest_first(studies)
     for one in every:
-        print(f"{one.cost:7.1f} CPU s  {one.name:50} {one.program} {' '.join(one.arguments)}")
-    print(f"{len(every)} runs, {sum(one.cost for one in every) / 60:.0f} CPU min")
+        mark = "long" if one.long else ""
+        print(f"{one.cost:7.1f} CPU s {mark:4}  {one.name:50} {one.program} {' '.join(one.arguments)}")
+    print(f"{len(every)} runs, {sum(one.cost for one in every if not one.long) / 60:.0f} CPU min without long ones")
     for study, members in studies.items():
         print(f"  {study:18} {sum(one.cost for one in members) / 60:5.1f} CPU min (shared ones included)")
