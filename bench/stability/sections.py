@@ -5,7 +5,7 @@ import math
 
 import runs
 import theory
-from coefficients import COEFFICIENTS, CRITERION, FINE, NUMERICAL, Coefficient
+from coefficients import COEFFICIENTS, FINE, NUMERICAL
 from markdown import NONE, cpu, fixed, significant, signed, table
 from measures import (
     QUANTITIES,
@@ -20,8 +20,6 @@ from measures import (
     share_at_rest,
 )
 from results import Collection, Result
-
-GRAVITY_TIME = math.sqrt(runs.HEIGHT / runs.GRAVITY)  # s
 
 
 def present(results: Collection) -> list[runs.Scheme]:
@@ -77,30 +75,6 @@ def criterion(results: Collection) -> str:
     for name in QUANTITIES.values():
         header += [name, "verdict"]
     return table(header, rows)
-
-
-def failures(results: Collection) -> list[str]:
-    """Coefficients that break the criterion, by quantity, L/dl = 32."""
-    found = []
-    for c in NUMERICAL:
-        if not c.in_criterion:
-            continue
-        for column, label in QUANTITIES.items():
-            for value, one in changes(results, c, 32, column):
-                if one.verdict == "FAILS":
-                    found.append(f"{c.name} {value:g} ({label} {with_doubt(one)})")
-    return found
-
-
-def undecided(results: Collection) -> list[str]:
-    found = []
-    for c in NUMERICAL:
-        if c.in_criterion:
-            for column, label in QUANTITIES.items():
-                for value, one in changes(results, c, 32, column):
-                    if "doubt" in one.verdict:
-                        found.append(f"{c.name} {value:g} ({label} {with_doubt(one)}: {one.verdict})")
-    return found
 
 
 def sensitivity(results: Collection) -> str:

@@ -8,7 +8,7 @@ from coefficients import CRITERION, NUMERICAL
 from markdown import significant
 from measures import QUANTITIES, between, changes, mean, root_mean_square, share_at_rest
 from results import Collection, Result
-from sections import FLOW, REST, failures, present, undecided, with_doubt
+from sections import FLOW, REST, present, with_doubt
 
 AT_REST = 1e-6  # KE/E0 below which the library's at_rest can hold
 
@@ -97,7 +97,7 @@ def _creep_line(results: Collection, key: str) -> str:
     )
 
 
-def _noise_line(results: Collection, result: Result) -> str:
+def _noise_line(result: Result) -> str:
     flow, rest = (100 * root_mean_square(between(result, "pressure_noise", *span)) for span in (FLOW, REST))
     return (
         f"its pressure is {flow:.1f} % of rho g H off its neighbours' plane while it flows and {rest:.1f} % afterwards "
@@ -110,11 +110,11 @@ def cannot(results: Collection) -> list[str]:
     lines = []
     for s in present(results):
         result = results(runs.creep(s.key))
-        lines.append(f"**{s.label}**: {_creep_line(results, s.key)}; {_noise_line(results, result)}.")
+        lines.append(f"**{s.label}**: {_creep_line(results, s.key)}; {_noise_line(result)}.")
     for horizon in runs.ROUGH_HORIZONS:
         result = results(runs.rough_horizon(horizon))
         if result:
-            lines.append(f"**default, horizon {horizon:g} dl**: {_noise_line(results, result)}.")
+            lines.append(f"**default, horizon {horizon:g} dl**: {_noise_line(result)}.")
     late = []
     for c in NUMERICAL:
         for value in c.values:
@@ -125,5 +125,3 @@ def cannot(results: Collection) -> list[str]:
         lines.append(f"**default, not at rest by 1 s**: {', '.join(late)}.")
     return lines
 
-
-__all__ = ["cannot", "criterion", "failures", "in_short", "undecided"]
