@@ -152,8 +152,8 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
         if (o.state.time >= f->end || o.state.time >= o.rest + f->rested ||
             (f->steps > 0 && (double)o.state.step >= f->steps))
             break;
-        o.status = f->steps > 0 ? gp_step(sim, (int64_t)f->steps)
-                                : gp_run(sim, fmin((double)(row + 1) * f->interval, f->end));
+        o.status =
+            f->steps > 0 ? gp_step(sim, (int64_t)f->steps) : gp_run(sim, fmin((double)(row + 1) * f->interval, f->end));
         if (o.status != GP_E_DIVERGED)
             CHECK(o.status);
         o.state = state_of(sim);

@@ -12,8 +12,8 @@ typedef struct following {
     double interval;   /* s between rows of the table */
     double drift_from; /* s, displacements count from here */
     double rested;     /* s: a run that has been at rest for so long ends */
-    int rough;         /* 1: also measure the roughness of pressure and velocity, which costs some steps' time per row */
-    FILE *table;       /* a row per interval; NULL: none */
+    int rough;   /* 1: also measure the roughness of pressure and velocity, which costs some steps' time per row */
+    FILE *table; /* a row per interval; NULL: none */
 } following;
 
 typedef struct outcome {

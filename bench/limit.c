@@ -1,24 +1,25 @@
 #include "limit.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "../examples/c/example.h" /* CHECK */
 
-enum { GRADES = 3, BISECTIONS = 3, MOST = 64 };
+/* Whether the deposit is the same is told on the ladder only: its scatter leaves nothing to bisect. */
+enum { GRADES = 3, SEARCHED = 2, BISECTIONS = 3, MOST = 64 };
 static const char *const grade_names[GRADES] = {"bounded", "stable", "same_deposit"};
 static const double rung = 1.25; /* ratio of one trial's step to the one before it */
 
 /* What is asked of a step beside that the run does not diverge. The schemes of the paper lose count of their energy with
  * any step: twice what the smallest one loses is allowed. */
-static const double gain_allowed = 1e-3;     /* E0: bounded is what makes no energy */
-static const double error_allowed = 0.02;    /* E0: stable is what also keeps count of it, */
-static const double error_excess = 2;        /* or loses it no faster than so many times the smallest step, */
-static const double restless = 3;            /* calms down as far as the smallest step but for this factor */
-static const double pressure_excess = 1.5;   /* and has no higher pressures than this times the smallest step's */
-static const double deposit_allowed = 0.02;  /* of the peak: and leaves the same deposit */
+static const double gain_allowed = 1e-3;    /* E0: bounded is what makes no energy */
+static const double error_allowed = 0.02;   /* E0: stable is what also keeps count of it, */
+static const double error_excess = 2;       /* or loses it no faster than so many times the smallest step, */
+static const double restless = 3;           /* calms down as far as the smallest step but for this factor */
+static const double pressure_excess = 1.5;  /* and has no higher pressures than this times the smallest step's */
+static const double deposit_allowed = 0.02; /* of the peak: and leaves the same deposit */
 
-/* Worst of all seeds, but for the peak: the mean. */
+/* Worst of all seeds, but for the peak, which is the mean, and for what is left of the motion, which is the least: a grain
+ * that comes down late in one run is no instability. */
 typedef struct tried {
     double courant, gain, error, latest, pressure, peak;
     int diverged, good[GRADES];
@@ -35,7 +36,7 @@ typedef struct search {
 
 static tried run_seeds(search *s, double courant) {
     trial t = *s->trial;
-    tried r = {.courant = courant, .gain = -INFINITY};
+    tried r = {.courant = courant, .gain = -INFINITY, .latest = INFINITY};
     int k;
     t.courant = courant;
     for (k = 0; k < s->seeds; ++k, ++t.seed) {
@@ -46,7 +47,7 @@ static tried run_seeds(search *s, double courant) {
         r.diverged |= o.status == GP_E_DIVERGED;
         r.gain = fmax(r.gain, o.gain);
         r.error = fmax(r.error, o.error);
-        r.latest = fmax(r.latest, o.latest);
+        r.latest = fmin(r.latest, o.latest);
         r.pressure = fmax(r.pressure, o.pressure);
         r.peak += o.peak / s->seeds;
     }
@@ -114,7 +115,7 @@ void search_limit(const trial *t, const following *f, const criterion *c, int se
     for (courant = c->first; courant <= c->largest && s.count < MOST / 2; courant *= rung)
         if (!attempt(&s, courant)->good[0])
             break;
-    for (grade = 0; grade < GRADES; ++grade)
+    for (grade = 0; grade < SEARCHED; ++grade)
         for (k = 0; k < BISECTIONS; ++k) {
             double good, bad;
             bracket(&s, grade, &good, &bad);

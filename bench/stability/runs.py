@@ -90,6 +90,7 @@ def collapse(scheme: str, resolution: int, end: float, long: bool = False, **mor
 
 # ---------------------------------------------------------------------------------------- largest time step
 
+LIMIT_END = 0.6  # s: a collapse has come to rest by then
 LIMIT_SOUNDS = (0.5, 1, 2, 5)
 LIMIT_RESOLUTIONS = (16, 32, 64)
 LIMIT_HORIZONS = (2.2, 3, 4, 5)
@@ -110,7 +111,7 @@ def limit(
     """The search for the largest stable time step. The collapse's particles are jittered as little as an ensemble's."""
     s = SCHEMES[scheme]
     layer = scene == "layer"
-    end = 0.3 if layer else ARREST
+    end = 0.3 if layer else LIMIT_END
     options = _options(
         resolution=resolution,
         sound_factor=None if sound == 1 else sound,
@@ -127,7 +128,7 @@ def limit(
     # Reference, ladder and bisections: as much as some runs with the smallest step.
     width = 20 / resolution if layer else 1
     seeds = 1 if layer or resolution == 64 else 2
-    cost = 3 * seeds * width * cost_of(s, resolution, end, s.smallest, sound, horizon)
+    cost = (9 if layer else 4) * seeds * width * cost_of(s, resolution, end, s.smallest, sound, horizon)
     return Run(_name("limit", scene, scheme, options=options), "stability", arguments, cost)
 
 
