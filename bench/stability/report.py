@@ -86,7 +86,7 @@ else c0. `gp_config.allow_unstable_step` lets the library go beyond its limit. F
 - *makes no energy* while kinetic + potential + elastic energy stay below 1.001 E0;
 - is *calm* if besides the ledger's error stays below 0.02 E0 (or twice that of the smallest step, where the scheme loses
   count at any step), the kinetic energy in the last tenth of the run below 1e-5 E0 in the collapse and 1e-7 E0 in the layer
-  (or three times that of the smallest step), and the highest pressure below 1.5 times that of the smallest step;
+  (or three times that of the smallest step), and the highest pressure below three times that of the smallest step;
 - leaves *the same deposit* if besides the peak is within 2 % of the smallest step's.
 
 ### Against theory

@@ -210,9 +210,9 @@ def mode(pattern: str, penalty: float) -> Run:
 
 # --------------------------------------------------------------------------------------------- sensitivity
 
-SEEDS = {16: 24, 32: 12, 64: 8}  # runs of an ensemble by resolution
+SEEDS = {16: 24, 32: 12, 64: 6}  # runs of an ensemble by resolution
 MORE_SEEDS = 24  # of the defaults and of the values that the criterion is about, L/dl = 32
-FEW_SEEDS = 3  # where the bits should be the same
+FEW_SEEDS = 3  # where the bits should be the same, and where more would be too dear
 JITTER = 0.01  # dl: enough for the runs of an ensemble to be independent, too little to matter itself
 RESTED = 0.05  # s at rest after which nothing moves any more
 
@@ -244,8 +244,11 @@ def _scale(c: Coefficient, value: float) -> float:
 def varied(c: Coefficient, value: float, resolution: int = 32) -> Run:
     if value == c.default:
         return base_ensemble(resolution)
-    more = MORE_SEEDS if resolution == 32 and value in (c.half, c.twice) else None
-    return ensemble((c.option, f"{value:g}"), resolution, FEW_SEEDS if c.inert else more, _scale(c, value))
+    scale = _scale(c, value)
+    seeds = MORE_SEEDS if resolution == 32 and value in (c.half, c.twice) else None
+    if c.inert or resolution * scale > 128:
+        seeds = FEW_SEEDS
+    return ensemble((c.option, f"{value:g}"), resolution, seeds, scale)
 
 
 def threads_run(threads: int) -> Run:
@@ -265,7 +268,7 @@ def sensitivity_fine() -> list[Run]:
 
 # --------------------------------------------------------------------------------------------------- large
 
-RESOLUTIONS = {8: 24, 16: 24, 32: MORE_SEEDS, 64: 8, 128: 1, 256: 1, 512: 1}  # seeds
+RESOLUTIONS = {8: 24, 16: 24, 32: MORE_SEEDS, 64: 6, 128: 1, 256: 1, 512: 1}  # seeds
 LONG_RESOLUTIONS = (256, 512)
 MILLION = 1264  # spacings in the width: 998,560 particles
 MILLION_STEPS = 300
