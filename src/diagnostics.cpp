@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ledger.hpp"
+#include "stages/stages.hpp"
 
 namespace gp {
 
@@ -30,6 +31,10 @@ gp_state measure_state(const World &world) {
     s.time = world.clock.time;
     s.step = world.clock.step;
     s.dt = world.clock.step > 0 ? world.clock.dt : 0.0;
+    s.dt_reason = world.clock.step > 0 ? world.clock.reason : GP_DT_NONE;
+    s.dt_limit = stages::stable_dt(world.constants);
+    s.retries = world.retries;
+    s.max_compression = world.max_compression;
     s.n_particles = p.count;
     s.n_awake = p.count;
 
@@ -46,6 +51,12 @@ gp_state measure_state(const World &world) {
     s.bulk_dissipated = world.ledger.bulk;
     s.collision_dissipated = world.ledger.collisions;
     s.channel_dissipated = world.ledger.side_walls;
+
+    s.implicit_last = world.viscous.last;
+    s.implicit_newton = world.viscous.newton;
+    s.implicit_linear = world.viscous.linear;
+    s.implicit_failures = world.viscous.failures;
+    s.implicit_residual = world.viscous.last_residual;
 
     double speed2 = 0;
     for (int64_t i = 0; i < p.count; ++i) {

@@ -28,7 +28,8 @@ double number_density(const World &world, int64_t i) {
     const double radius = world.constants.interaction_radius;
     double sum = 0;
     // The cells are those of the last sort: particles have moved by less than `shifted` since.
-    for_each_candidate(world.grid, world.images, p.x[i], p.y[i], radius + world.shifted, [&](int64_t j) {
+    for_each_candidate(world.grid, world.images, p.x[i], p.y[i], radius + world.shifted, [&](int64_t place) {
+        const int64_t j = world.particle_listed_at(place);
         if (j != i)
             sum += weight(std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]), 1.0 / radius);
     });
@@ -61,7 +62,7 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
                        : 0.0;
         });
     case GP_FIELD_VISCOSITY:
-        if (world.constants.scheme != Scheme::adjoint)
+        if (by_number_density(world.constants.scheme))
             return derive(world, scratch, [&](int64_t i) {
                 return world.material_of(i).law.viscosity(shear_rate(p, i), p.pressure[i]);
             });
@@ -69,7 +70,7 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
             return equivalent_stress({p.sxx[i], p.sxy[i]}) / std::hypot(shear_rate(p, i), world.scene->config().delta);
         });
     case GP_FIELD_NUMBER_DENSITY:
-        if (world.constants.scheme != Scheme::adjoint) // as the scheme found it, with the ghosts
+        if (by_number_density(world.constants.scheme)) // as the scheme found it, with the ghosts
             return derive(world, scratch, [&](int64_t i) {
                 return p.density[i] / world.material_of(i).density * world.constants.interaction_lattice.number_density;
             });

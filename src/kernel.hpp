@@ -38,4 +38,37 @@ inline LatticeSums lattice_sums(double radius, double spacing) {
     return sums;
 }
 
+// The operators on a plane wave exp(i k.r) of the lattice, all without dimension (k0, N0 as above, sums over neighbours).
+struct Wave {
+    double
+        gradient2; // dl^2 |G|^2, G = sum w r sin(k.r) / k0: what the gradient, and by its adjoint the force, makes of it
+    double unseen;     // 1 - sum w cos(k.r) / N0 - k0 |G|^2 / (2 N0): what the zero-energy penalty acts on
+    double difference; // 2 dl^2 sum w (1 - cos(k.r)) / k0: the density diffusion's Laplacian
+};
+
+// Calls visit(wave) for waves that sample the lattice's Brillouin zone, an eighth of it by its symmetry.
+template <class Visit> void for_each_wave(double radius, double spacing, const Visit &visit) {
+    constexpr int samples = 32; // per half period
+    const double horizon = radius / spacing, pi = std::acos(-1.0);
+    const LatticeSums sums = lattice_sums(horizon, 1);
+    const int reach = static_cast<int>(std::ceil(horizon));
+    for (int a = 0; a <= samples; ++a)
+        for (int b = 0; b <= a; ++b) {
+            const double kx = a * pi / samples, ky = b * pi / samples;
+            double gx = 0, gy = 0, cosines = 0;
+            for (int j = -reach; j <= reach; ++j)
+                for (int i = -reach; i <= reach; ++i) {
+                    if (i == 0 && j == 0)
+                        continue;
+                    const double w = weight(std::hypot(i, j), 1.0 / horizon), phase = kx * i + ky * j;
+                    gx += w * i * std::sin(phase);
+                    gy += w * j * std::sin(phase);
+                    cosines += w * std::cos(phase);
+                }
+            const double k0 = sums.second_moment, n0 = sums.number_density;
+            const double gradient2 = (gx * gx + gy * gy) / (k0 * k0);
+            visit(Wave{gradient2, 1 - cosines / n0 - 0.5 * k0 * gradient2 / n0, 2 * (n0 - cosines) / k0});
+        }
+}
+
 } // namespace gp

@@ -7,16 +7,28 @@ namespace gp {
 
 namespace {
 
-// Per volume: integral of p d rho / rho from rho0 on, and s:s / 4G.
-double elastic_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
+// Per volume: integral of p d rho / rho from rho0 on. A viscous stress stores nothing.
+double compression_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
     const double compression = p.density[i] / m.density - 1;
-    const double volumetric = compression > 0 ? m.bulk_modulus * (compression - std::log1p(compression)) : 0.0;
-    return volumetric + (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+    return compression > 0 ? m.bulk_modulus * (compression - std::log1p(compression)) : 0.0;
 }
 
-// A viscous stress stores nothing.
-double compression_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
+// That and s:s / 4G.
+double elastic_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
+    return compression_energy(p, m, i) + (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+}
+
+// The same as the first with the paper's equation of state.
+double number_density_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
     return state_energy(p.density[i] / m.density, m.bulk_modulus);
+}
+
+auto energy_of(Scheme scheme) {
+    switch (scheme) {
+    case Scheme::adjoint: return elastic_energy;
+    case Scheme::implicit: return compression_energy;
+    default: return number_density_energy;
+    }
 }
 
 } // namespace
@@ -24,7 +36,7 @@ double compression_energy(const Particles &p, const MaterialConstants &m, int64_
 Energies measure_energies(const World &world) {
     const Particles &p = world.particles;
     const Vector &g = world.constants.gravity;
-    const auto elastic = world.constants.scheme == Scheme::adjoint ? elastic_energy : compression_energy;
+    const auto elastic = energy_of(world.constants.scheme);
     Energies e;
     e.potential = world.ledger.wound;
     for (int64_t i = 0; i < p.count; ++i) {

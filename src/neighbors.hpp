@@ -33,6 +33,7 @@ public:
     void sort(Particles &particles, double cell_size, int threads);
 
     const Box &box() const { return box_; }
+    const Field<int32_t> &order() const { return order_; } // of the last sort: sorted position -> old position
     int64_t bytes() const;
 
     // Calls body(begin, end) for the run of particles in each row of cells that the square of half width `radius` about

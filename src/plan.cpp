@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "stages/stages.hpp"
+#include "undo.hpp"
 
 namespace gp {
 
@@ -52,6 +53,8 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"move_plates", t.plates, "a plate moves", no_plates,
          stages::move_plates, plates_move, "no plate moves now"},
         {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
+        // copies what the next stages overwrite
+        {"keep_fields", t.particles, "a step that diverges is taken back", no_particles, keep_fields, nullptr, ""},
         // reads velocity; writes ghost velocity
         {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_velocity, in_reach, none_near},
@@ -102,6 +105,7 @@ std::vector<PlannedStage> make_stages(const Traits &t) {
     const std::vector<PlannedStage> first = default_stages(t);
     const Choice choices[] = {
         {Scheme::adjoint, "a stage of the default scheme", first},
+        {Scheme::implicit, "a stage of the implicit scheme (GP_STRESS_IMPLICIT)", implicit_stages(t, first)},
         {Scheme::paper, "a stage of the paper's schemes (GP_PRESET_PAPER)", paper_stages(t, first)},
         {Scheme::paper_local, "a stage of the paper's local model (GP_PRESET_PAPER_LOCAL)",
          paper_local_stages(t, first)}};
@@ -177,7 +181,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                                    : why_not,
                                       bytes));
     };
-    const bool force_states = t.scheme != Scheme::paper_local, viscous = t.scheme != Scheme::adjoint;
+    const bool force_states = t.scheme != Scheme::paper_local, viscous = by_number_density(t.scheme);
     optional("viscous_stress_yy", viscous, "the viscous stress has a trace", "the deviatoric stress has no trace",
              bytes_of(p.syy));
     optional("inverse_shape_tensor", force_states, "force states need it", "the local model has no force states",
@@ -194,11 +198,19 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));
+    int64_t kept = 0;
+    for (const Field<double> &field : world.step_start.copied)
+        kept += bytes_of(field);
+    for (const Field<double> &field : world.step_start.made)
+        kept += bytes_of(field);
+    optional("kept_fields", true, "a step that diverges is taken back", "", kept);
     common("cells", world.grid.bytes());
     common("neighbor_lists", world.neighbors.bytes());
     entries.push_back(field_entry("images", t.particles && t.periodic,
                                   t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
                                   world.images.bytes()));
+    optional("viscous_system", t.scheme == Scheme::implicit, "the implicit solve's operators and vectors",
+             "no implicit solve", world.viscous.bytes() + world.mirrors.bytes());
     common("sort_scratch", p.scratch_bytes());
     common("block_sums", bytes_of_all(world.sums, world.ranges));
     entries.push_back(field_entry("ghosts", t.plates && world.walls.in_reach(),

@@ -30,7 +30,8 @@ struct PlannedStage {
 
 std::vector<PlannedStage> make_stages(const Traits &traits);
 
-// The list of one of the paper's schemes. What it shares with the default scheme it takes from that one's list.
+// The lists of the other schemes. What they share with the default scheme they take from that one's list.
+std::vector<PlannedStage> implicit_stages(const Traits &traits, const std::vector<PlannedStage> &default_stages);
 std::vector<PlannedStage> paper_stages(const Traits &traits, const std::vector<PlannedStage> &default_stages);
 std::vector<PlannedStage> paper_local_stages(const Traits &traits, const std::vector<PlannedStage> &default_stages);
 

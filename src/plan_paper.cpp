@@ -1,57 +1,18 @@
 // The schemes of Jin et al. (2021) as stage lists over the same fields.
-#include <cstring>
-
-#include "error.hpp"
 #include "plan.hpp"
+#include "stage_rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp {
 
-namespace {
-
-bool in_reach(const World &world) {
-    return world.walls.in_reach();
-}
-
-// Rows of the two lists: those of the default scheme by their name, and new ones.
-struct Rows {
-    const Traits &t;
-    const std::vector<PlannedStage> &default_stages;
-
-    PlannedStage same(const char *name) const {
-        for (const PlannedStage &stage : default_stages)
-            if (!std::strcmp(stage.name, name))
-                return stage;
-        throw make_error(GP_E_INTERNAL, "plan: no stage %s", name);
-    }
-    PlannedStage other(const char *name, void (*run)(World &)) const {
-        PlannedStage stage = same(name);
-        stage.run = run;
-        return stage;
-    }
-    PlannedStage particles(const char *name, const char *why, void (*run)(World &)) const {
-        return {name, t.particles, why, "the scene has no particles", run, nullptr, ""};
-    }
-    PlannedStage walls(const char *name, void (*run)(World &)) const {
-        return {name,
-                t.particles && t.plates,
-                "a plate is within reach of material",
-                t.particles ? "the scene has no plates" : "the scene has no particles",
-                run,
-                in_reach,
-                "no plate is within reach of material"};
-    }
-};
-
-} // namespace
-
 // The non-local scheme: figure 1 of the paper.
 std::vector<PlannedStage> paper_stages(const Traits &t, const std::vector<PlannedStage> &default_stages) {
-    const Rows rows{t, default_stages};
+    const StageRows rows{t, default_stages};
     return {
         rows.same("choose_dt"),
         rows.same("move_plates"),
         rows.same("update_neighbors"),
+        rows.same("keep_fields"),
         // writes u*, r* (3.14, 3.15)
         rows.particles("predict", "gravity first, then the forces", stages::predict),
         // reads position; writes density, pressure (2.4, 2.8)
@@ -80,11 +41,12 @@ std::vector<PlannedStage> paper_stages(const Traits &t, const std::vector<Planne
 
 // The local model (section 5.1): viscous force in the predictor, pressure in the corrector.
 std::vector<PlannedStage> paper_local_stages(const Traits &t, const std::vector<PlannedStage> &default_stages) {
-    const Rows rows{t, default_stages};
+    const StageRows rows{t, default_stages};
     return {
         rows.same("choose_dt"),
         rows.same("move_plates"),
         rows.same("update_neighbors"),
+        rows.same("keep_fields"),
         rows.walls("ghost_velocity", stages::ghost_velocity),
         // reads position, velocity; writes velocity gradient (2.7)
         rows.particles("mps_gradient", "velocity gradient by the MPS operator", stages::mps_gradient),

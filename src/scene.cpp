@@ -61,7 +61,7 @@ void check_config(const gp_config &c) {
     require_choice("gp_config.allow_unstable_step", c.allow_unstable_step, 2);
     require_choice("gp_config.retry_halvings", c.retry_halvings, 21);
 
-    if (scheme_of(c) != Scheme::adjoint) {
+    if (by_number_density(scheme_of(c))) {
         const char *none = "0: the schemes with GP_DENSITY_NUMBER have none";
         require(c.zero_energy_penalty == 0, "gp_config.zero_energy_penalty", c.zero_energy_penalty, none);
         require(c.density_diffusion == 0, "gp_config.density_diffusion", c.density_diffusion, none);
@@ -77,17 +77,17 @@ void check_config(const gp_config &c) {
 
 Scheme scheme_of(const gp_config &c) {
     const bool numbered = c.stress == GP_STRESS_REGULARIZED && c.density == GP_DENSITY_NUMBER;
-    if (c.nonlocal == 1 && c.stress == GP_STRESS_ELASTIC && c.density == GP_DENSITY_CONTINUITY)
-        return Scheme::adjoint;
+    if (c.nonlocal == 1 && c.density == GP_DENSITY_CONTINUITY && c.stress != GP_STRESS_REGULARIZED)
+        return c.stress == GP_STRESS_IMPLICIT ? Scheme::implicit : Scheme::adjoint;
     if (numbered)
         return c.nonlocal == 1 ? Scheme::paper : Scheme::paper_local;
     // The choice to name is the one that departs from the preset.
     const gp_config own = default_config(c.preset);
-    const bool stress = c.stress != own.stress || c.stress == GP_STRESS_IMPLICIT, density = c.density != own.density;
+    const bool stress = c.stress != own.stress, density = c.density != own.density;
     throw make_error(GP_E_UNSUPPORTED,
                      "gp_config.%s = %d: not with stress = %d, density = %d, nonlocal = %d; possible are "
-                     "GP_STRESS_ELASTIC with GP_DENSITY_CONTINUITY and nonlocal = 1, or GP_STRESS_REGULARIZED with "
-                     "GP_DENSITY_NUMBER and nonlocal = 0 or 1",
+                     "GP_STRESS_ELASTIC or GP_STRESS_IMPLICIT with GP_DENSITY_CONTINUITY and nonlocal = 1, or "
+                     "GP_STRESS_REGULARIZED with GP_DENSITY_NUMBER and nonlocal = 0 or 1",
                      stress    ? "stress"
                      : density ? "density"
                                : "nonlocal",

@@ -18,10 +18,16 @@ namespace gp {
 // The schemes that there are: stage lists over the same fields (plan.cpp, plan_paper.cpp).
 enum class Scheme {
     adjoint,    // the default: continuity, return map, adjoint operators
+    implicit,   // the same with the regularised law in place of the return map, solved implicitly
     paper,      // Jin et al. (2021): number density, regularised law, force states
     paper_local // its local model: the same by MPS operators
 };
 Scheme scheme_of(const gp_config &config); // throws for a combination of choices that is none of them
+
+// Does the pressure follow from the particle number density, with the paper's operators and ghosts?
+inline bool by_number_density(Scheme scheme) {
+    return scheme == Scheme::paper || scheme == Scheme::paper_local;
+}
 
 gp_config default_config(int32_t preset); // throws for an unknown preset
 gp_material default_material();
@@ -79,12 +85,14 @@ struct Constants {
     LatticeSums lattice;             // for the horizon
     LatticeSums interaction_lattice; // for the interaction radius
     double sound_speed;              // c0, m/s
+    double flow_speed;               // m/s, the largest that the scene can reach, which the sound speed is based on
     bool sound_speed_is_arbitrary;   // nothing in the scene sets a speed
     double wave_speed;               // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), c0 without G; m/s
     double fall_height;              // m, that the sound speed is based on
     double time_scale;               // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
     double plate_mass;               // kg/m2, of a loaded plate that has none of its own
     double plate_step;               // s, largest step that is stable for the lightest loaded plate
+    double viscous_step;             // s, largest step that is stable for the coefficients that damp
     double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;

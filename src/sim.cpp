@@ -8,6 +8,7 @@
 #include "check.hpp"
 #include "ledger.hpp"
 #include "stages/stages.hpp"
+#include "undo.hpp"
 
 namespace gp {
 
@@ -17,11 +18,23 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// While it lives, the host's callback runs: also one that throws leaves it so.
+class InCallback {
+public:
+    explicit InCallback(bool &flag) : flag_(flag) { flag_ = true; }
+    InCallback(const InCallback &) = delete;
+    InCallback &operator=(const InCallback &) = delete;
+    ~InCallback() { flag_ = false; }
+
+private:
+    bool &flag_;
+};
+
 } // namespace
 
 // ---------------------------------------------------------------------------------------------- time loop
 
-void Sim::take_step() {
+void Sim::run_stages() {
     World &world = *world_;
     double before = now();
     const double begin = before;
@@ -36,13 +49,51 @@ void Sim::take_step() {
     }
     world.clock.time += world.clock.dt;
     ++world.clock.step;
-    ++epoch_;
     wall_seconds_ += before - begin;
 }
 
+// A step that diverges is undone and, if the host wants it, taken anew as two pieces of half its size, one after the other;
+// a piece that diverges likewise. Each piece is a whole step to everyone who looks.
+std::vector<std::string> Sim::take_step() {
+    World &world = *world_;
+    const int32_t most = scene_.config().retry_halvings;
+    stages::require_moderate_flow(world); // no shorter step would help
+    std::vector<std::string> notes;
+    for (bool done = false; !done;) {
+        begin_step(world);
+        try {
+            run_stages();
+            done = true;
+        } catch (const Error &error) {
+            if (error.status() != GP_E_DIVERGED)
+                throw;
+            const double dt = world.clock.dt;
+            undo_step(world);
+            std::vector<Piece> &pieces = world.pieces;
+            const double time = world.clock.time;
+            const int32_t depth = pieces.empty() ? 1 : pieces.back().depth + 1;
+            if (depth > most || !(time + 0.5 * dt > time))
+                throw;
+            if (depth == 1)
+                pieces.push_back({time + dt, 1});
+            pieces.back().depth = depth;
+            pieces.push_back({time + 0.5 * dt, depth});
+            ++world.retries;
+            if (notes.empty())
+                notes = warnings_.of_retry(world, error.what());
+        }
+    }
+    const Clock &clock = world.clock;
+    while (!world.pieces.empty() && world.pieces.back().end - clock.time < 1e-9 * clock.dt)
+        world.pieces.pop_back();
+    ++epoch_;
+    return notes;
+}
+
 gp_status Sim::advance(gp_sim *handle) {
+    std::vector<std::string> notes;
     try {
-        take_step();
+        notes = take_step();
     } catch (const Error &error) {
         diverged_ = error.status() == GP_E_DIVERGED;
         ++epoch_;
@@ -60,11 +111,13 @@ gp_status Sim::advance(gp_sim *handle) {
     } catch (const Error &) {
         lost_frame = std::current_exception();
     }
+    warn(notes);
+    if (log_)
+        warn(warnings_.of_step(*world_));
     bool stop = false;
     if (callback_ && world_->clock.step % callback_every_ == 0) {
-        in_callback_ = true;
+        const InCallback guard(in_callback_);
         stop = callback_(callback_user_, handle) != 0;
-        in_callback_ = false;
     }
     if (lost_frame)
         std::rethrow_exception(lost_frame);
@@ -116,7 +169,7 @@ void Sim::require_unstarted(const char *call) const {
 
 void Sim::scene_changed() {
     world_.reset();
-    announced_ = false;
+    warnings_ = {};
     ++epoch_;
 }
 
@@ -158,7 +211,10 @@ void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
     require_finite("vy", vy);
     require_tangential(scene_.plates()[plate], {vx, vy}, "plate");
     if (started_) {
-        world_->walls.plates[plate].drive(world_->clock.time, {vx, vy});
+        Plate &driven = world_->walls.plates[plate];
+        driven.drive(world_->clock.time, {vx, vy});
+        if (driven.gap <= 0) // the lists and the step's size count on the span from the next step on
+            world_->velocity_span = std::max(world_->velocity_span, driven.velocity().norm() + world_->fastest);
         ++epoch_;
     } else {
         scene_.drive_plate(plate, {vx, vy});
@@ -172,9 +228,12 @@ void Sim::prepare() {
     auto world = make_world(scene_);
     stages::measure_velocities(*world);
     stages::update_neighbors(*world);
-    if (world->constants.scheme != Scheme::adjoint)
+    if (by_number_density(world->constants.scheme))
         stages::number_density(*world);
     open_ledger(*world);
+    for (int64_t i = 0; i < world->particles.count; ++i)
+        world->max_compression =
+            std::max(world->max_compression, world->particles.density[i] / world->material_of(i).density - 1);
 
     traits_ = traits_of(scene_, world->constants);
     stages_ = make_stages(traits_);
@@ -187,36 +246,27 @@ void Sim::require_steppable() const {
     Sim &self = const_cast<Sim &>(*this);
     self.prepare();
     check_demanded_step();
-    if (!announced_) {
-        warn_about_scene();
-        self.announced_ = true;
-    }
+    if (world_->clock.step == 0)
+        stages::require_moderate_flow(*world_);
+    warn(self.warnings_.of_scene(*world_));
     self.started_ = true;
 }
 
 void Sim::check_demanded_step() const {
+    if (scene_.config().allow_unstable_step)
+        return;
     const double demanded = scene_.config().time_step;
     const double limit = stages::stable_dt(world_->constants);
     if (demanded > limit)
         throw make_error(GP_E_ARGUMENT,
-                         "gp_config.time_step = %g: expected at most %g s, the stable limit of this scene", demanded,
-                         limit);
+                         "gp_config.time_step = %g: expected at most %g s, the stable limit of this scene, or "
+                         "allow_unstable_step = 1",
+                         demanded, limit);
     const double cfl = scene_.config().cfl;
     if (cfl * world_->constants.spacing / world_->constants.wave_speed > limit)
-        throw make_error(GP_E_ARGUMENT, "gp_config.cfl = %g: expected at most %g, the stable limit", cfl,
+        throw make_error(GP_E_ARGUMENT,
+                         "gp_config.cfl = %g: expected at most %g, the stable limit, or allow_unstable_step = 1", cfl,
                          limit * world_->constants.wave_speed / world_->constants.spacing);
-}
-
-void Sim::warn_about_scene() const {
-    const Constants &c = world_->constants;
-    if (c.sound_speed_is_arbitrary && scene_.particle_count() > 0)
-        log(GP_LOG_WARNING, "sound_speed: nothing in the scene sets a speed, so 1 m/s is used");
-    const int64_t wrong_side = world_->walls.count_overlapping(world_->particles, 0.25 * c.spacing);
-    if (wrong_side > 0)
-        log(GP_LOG_WARNING,
-            format_text("%lld particles begin within a quarter spacing of a plate's wetted line or just "
-                        "behind it",
-                        static_cast<long long>(wrong_side)));
 }
 
 // ----------------------------------------------------------------------------------------------- callbacks
@@ -237,6 +287,11 @@ void Sim::set_log(gp_log callback, void *user) {
 void Sim::log(int32_t level, const std::string &text) const {
     if (log_)
         log_(log_user_, level, text.c_str());
+}
+
+void Sim::warn(const std::vector<std::string> &texts) const {
+    for (const std::string &text : texts)
+        log(GP_LOG_WARNING, text);
 }
 
 } // namespace gp

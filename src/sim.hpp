@@ -9,6 +9,7 @@
 #include "granperi/gp.h"
 #include "plan.hpp"
 #include "scene.hpp"
+#include "warnings.hpp"
 #include "world.hpp"
 
 namespace gp {
@@ -38,6 +39,7 @@ public:
     void set_callback(int64_t every, gp_callback callback, void *user);
     void set_log(gp_log callback, void *user);
     void log(int32_t level, const std::string &text) const;
+    void warn(const std::vector<std::string> &texts) const;
 
     // Builds what the stages work on from the scene, if that is still to be done. Readers call it first.
     void prepare();
@@ -56,16 +58,16 @@ private:
     void require_steppable() const;
     void scene_changed();
     void check_demanded_step() const;
-    void warn_about_scene() const;
-    void take_step();
-    gp_status advance(gp_sim *handle); // one step, output and callback
+    void run_stages();
+    std::vector<std::string> take_step(); // or a piece of it after halving; returns what the log is to be told
+    gp_status advance(gp_sim *handle);    // one step, output and callback
 
     Scene scene_;
     std::unique_ptr<World> world_;
     Traits traits_{};
     std::vector<PlannedStage> stages_;
     bool started_ = false, diverged_ = false, in_callback_ = false;
-    bool announced_ = false; // the scene's notes have been logged
+    Warnings warnings_;
     uint64_t epoch_ = 0;
     double wall_seconds_ = 0;
 

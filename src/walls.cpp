@@ -34,6 +34,7 @@ void Plate::drive(double time, const Vector &velocity) {
     driven_since_ = time;
     driven_velocity_ = velocity;
     driven_ = true;
+    velocity_ = velocity + fall_speed_ * spec_->segment.normal; // the next step's size goes by it
 }
 
 bool Plate::moves_after(double time) const {
@@ -88,6 +89,10 @@ int64_t Walls::bytes() const {
 }
 
 namespace {
+
+// Two plates passed at fractions of the way that differ by less are passed at their common corner: twice the tolerance of
+// crossing(), 1e-9 dl, over ways of at least half a spacing.
+constexpr double corner = 1e-8;
 
 // A particle this close behind the line still counts as in front of it: the contact stage is about to push it back.
 constexpr double penetration_allowed = 0.25; // dl
@@ -219,7 +224,10 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, cons
                 if (static_cast<int32_t>(q) == ghost.nearby)
                     continue;
                 const double fraction = crossing(nearby_[q].segment, from, at, tolerance);
-                if (fraction >= 0 && fraction < own_fraction - 1e-9) // hidden
+                // What is seen through a corner of two plates, as on the diagonal of a box, is the first one's.
+                const double same =
+                    static_cast<int32_t>(q) < ghost.nearby ? own_fraction + corner : own_fraction - corner;
+                if (fraction >= 0 && fraction < same) // hidden
                     return;
             }
             seen(i);

@@ -15,6 +15,10 @@
 
 namespace gp {
 
+// A particle nearer than this to a plate and approaching collides with it: the collision distance of 0.9 dl from the
+// first layer of ghosts, half a spacing behind the surface.
+constexpr double contact_distance = 0.4; // dl
+
 // A plate in motion.
 class Plate {
 public:

@@ -5,9 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "mirrors.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "scene.hpp"
+#include "viscous_system.hpp"
 #include "walls.hpp"
 
 namespace gp {
@@ -15,8 +17,15 @@ namespace gp {
 struct Clock {
     double time = 0;
     int64_t step = 0;
-    double dt = 0;        // of the last step, or of the one under way
-    double time_left = 0; // until the end that the host asked for; 0: none
+    double dt = 0;               // of the last step, or of the one under way
+    double time_left = 0;        // until the end that the host asked for; 0: none
+    int32_t reason = GP_DT_NONE; // GP_DT_...: what set dt
+};
+
+// A part of a step that diverged, to be taken anew (gp_config.retry_halvings).
+struct Piece {
+    double end;    // s, on the clock
+    int32_t depth; // how often the step was halved for it
 };
 
 // Energies in J per metre of depth.
@@ -46,8 +55,11 @@ struct alignas(64) BlockSums {
     double unbalanced = 0;     // kg/m, mass of the particles that forces and pushes together still accelerate
     double collision_loss = 0; // J/m
     double side_walls = 0;     // J/m, dissipated by the friction of side walls
+    double scheme = 0;         // J/m, lost by the implicit solve beside friction
     int64_t collisions = 0;    // counted from both sides
     double kinetic = 0;        // J/m
+    double densest = 0;        // largest density over the material's own
+    bool unbounded = false;    // a density is not a number or out of bounds (stages.hpp)
 };
 
 // Extremes of the velocities of one block, for the time step and the neighbour lists.
@@ -57,6 +69,17 @@ struct alignas(64) BlockRange {
 
 // gp_state.at_rest: below this, in g, an acceleration does not count.
 constexpr double rest_acceleration = 0.05;
+
+// What a step changes before it is known to be good (undo.hpp).
+struct StepStart {
+    Clock clock;
+    Ledger ledger;
+    std::vector<Plate> plates;
+    double shifted = 0;
+    bool fields_kept = false;          // the next ones hold the present step's beginning
+    std::vector<Field<double>> copied; // of fields that are changed in place
+    std::vector<Field<double>> made;   // of fields that are made anew: memory is exchanged, not copied
+};
 
 struct World {
     const Scene *scene = nullptr;
@@ -68,12 +91,17 @@ struct World {
     Images images; // of a periodic scene, else empty
     NeighborList neighbors;
     Walls walls;
+    // With GP_STRESS_IMPLICIT, else empty.
+    Mirrors mirrors;
+    ViscousSystem viscous;
     Clock clock;
     double mass = 0; // kg/m, of all particles
     Ledger ledger;
 
     // Neighbour lists are good while particles (and plates) have moved by less than the skin against each other.
     bool lists_valid = false;
+    bool lists_new = false;   // made in the present step: it has sorted the particles
+    Field<int32_t> listed;    // particle of each place in the lists and cells, where a sort was undone; empty: the same
     double skin = 0;          // m
     double shifted = 0;       // m, bound on the relative shift since the lists were made
     double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
@@ -85,7 +113,12 @@ struct World {
     double plastic_power = 0;    // W/m, of the last step
     double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g
     int64_t collisions = 0;
+    double max_compression = 0; // largest density over the material's own so far, less 1
+    StepStart step_start;
+    std::vector<Piece> pieces; // of a diverged step, the next one last
+    int64_t retries = 0;
 
+    int64_t particle_listed_at(int64_t place) const { return listed.empty() ? place : listed[place]; }
     const ReturnMap &map_of(int64_t i) const { return material_of(i).map; }
     const MaterialConstants &material_of(int64_t i) const {
         return constants.materials[constants.body_material[particles.column[i]]];

@@ -59,7 +59,8 @@ enum {
     GP_E_STATE = -2,       /* the call is out of order, or was made from inside a callback */
     GP_E_MEMORY = -3,      /* out of memory */
     GP_E_IO = -4,          /* a file could not be created, written or read */
-    GP_E_DIVERGED = -5,    /* a value became non-finite; the simulation can be read and destroyed, not stepped */
+    GP_E_DIVERGED = -5,    /* a value became non-finite or unbounded (see gp_step): the simulation can be read at its last
+                              good step and destroyed, not stepped */
     GP_E_UNSUPPORTED = -6, /* the option exists, but this build or version does not have it */
     GP_E_VERSION = -7,     /* a struct or file comes from a newer version */
     GP_E_INTERNAL = -8     /* a defect of the library: please report the text of gp_last_error() */
@@ -120,7 +121,8 @@ typedef struct gp_config {
                                     from its highest to its lowest point, by its initial and plate velocities [0] */
     double cfl;                  /* time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0;
                                     0: the scheme's own, 0.8 or of the schemes of [1] 0.2; else 1e-6 .. 2 [0] */
-    double time_step;            /* s, fixed; 0: adaptive. Larger than the stable limit: refused at the first step [0] */
+    double time_step;            /* s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY.
+                                    Beyond gp_state.dt_limit: refused at the first step, but see allow_unstable_step [0] */
     double interaction_radius;   /* dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4] */
     double horizon;              /* dl, radius of the peridynamic operators; 1.8 .. 8: below, neighbours are too few [4] */
     double horizon_length;       /* m, the horizon as a fixed length; 0: use horizon [0] */
@@ -265,8 +267,25 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
 
 /* ------------------------------------------------------------------------------------------------ running */
 
-/* Takes n time steps; n >= 0. After GP_E_MEMORY inside a step the simulation can be read, not stepped. GP_STOPPED if the callback stopped it. A scene without particles only counts time. After GP_E_DIVERGED positions and velocities are those of the last good step; after GP_E_IO
- * (of an output that writes by itself) the step is complete, the frame is lost and the run may go on. */
+/* Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts time. After
+ * GP_E_MEMORY inside a step the simulation can be read, not stepped; after GP_E_IO (of an output that writes by itself) the
+ * step is complete, the frame is lost and the run may go on.
+ *
+ * A step is GP_E_DIVERGED, and its text names stage, field, particle, position, time and step, where
+ *   - a density, a stress or an acceleration is not a finite number;
+ *   - a density is negative or twice the material's own (a blow as fast as sound makes it so);
+ *   - in the step a particle would move by more than a spacing by its acceleration, or against another particle or plate
+ *     (this with a time_step; steps that the library chooses are shortened instead);
+ *   - the flow asks for steps below 1/128 of spacing / wave speed: speeds differ by 32 wave speeds. At the first step this is
+ *     GP_E_ARGUMENT: the sound_speed is wrong for the scene.
+ * It is found before anything moves, and the step is undone: fields, their order, clock, energies, plates and loads have the
+ * bits of the last good step. But in a periodic scene particles that have just returned into the period stay there and the
+ * order is new, and GP_FIELD_NUMBER_DENSITY may differ by rounding.
+ *
+ * With gp_config.retry_halvings a step that diverges is undone and taken as two steps of half its size, one after the other,
+ * each of which is halved likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the
+ * callback and the output, with GP_DT_RETRY in gp_state.dt_reason; what is undone nobody sees. After the two halves the
+ * size is chosen as always. Speeds that ask for too small a step are not retried: the step begins with them. */
 GP_API gp_status gp_step(gp_sim *sim, int64_t n);
 
 /* Steps until the clock shows t_end (s) exactly; the last steps are shortened to land on it. t_end earlier than the
@@ -284,7 +303,13 @@ enum { GP_LOG_INFO = 0, GP_LOG_WARNING = 1 };
 /* text is valid during the call only. The library may not be called from inside it. */
 typedef void (*gp_log)(void *user, int32_t level, const char *text);
 
-/* log NULL: silent, as at the start. */
+/* log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per simulation, with
+ * its figure and with what to change. At the first step: a sound_speed that nothing sets or below the speeds that the scene
+ * can reach, particles within a quarter spacing of a plate's line, a column thinner than 3 spacings, a time step beyond the
+ * stable limit. Later: a step taken anew, compression above 3 % (not of the schemes of [1]), a plate in reach of material at
+ * more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, more than 10 % of the dissipation by
+ * the zero-energy penalty, an energy error above 2 % of the largest energy in the ledger (these two not of the schemes of
+ * [1]). */
 GP_API gp_status gp_set_log(gp_sim *sim, gp_log log, void *user);
 
 /* ------------------------------------------------------------------------------------------------ reading */
@@ -344,7 +369,7 @@ enum {
     GP_DT_VISCOSITY = 4, /* bulk_viscosity, zero_energy_penalty or density_diffusion */
     GP_DT_DEMANDED = 5,  /* gp_config.time_step */
     GP_DT_END = 6,       /* shortened to land on the t_end of gp_run */
-    GP_DT_RETRY = 7      /* shortened because the step had diverged (gp_config.retry_halvings) */
+    GP_DT_RETRY = 7      /* what is left of a step that diverged, halved (gp_config.retry_halvings) */
 };
 
 typedef struct gp_state {
@@ -392,8 +417,9 @@ typedef struct gp_state {
     int64_t implicit_linear;       /* iterations of conjugate gradients so far */
     int64_t implicit_failures;     /* solves that did not converge, so far: each is GP_E_DIVERGED or a retry */
     double implicit_residual;      /* of the last solve, as gp_config.implicit_tolerance */
-    int64_t retries;               /* steps taken anew so far (gp_config.retry_halvings) */
-    double dt_limit;               /* s, the largest time_step that is stable for this scene */
+    int64_t retries;               /* steps undone and taken anew so far (gp_config.retry_halvings) */
+    double dt_limit;               /* s, the largest time_step that is stable for this scene: for waves, loaded plates and the
+                                      coefficients that damp, not for the flow */
     double max_compression;        /* largest density over the material's own so far, less 1 */
 } gp_state;
 

@@ -32,12 +32,20 @@ struct Regularized {
     double rate_factor; // I0 / (d sqrt(rho_s)), so that I0 sqrt(p / (rho_s d^2)) = rate_factor sqrt(p)
     double delta;       // 1/s
 
+    // mu(|gamma|) p in Pa, and its derivative by |gamma| in Pa s.
+    struct Yield {
+        double stress, slope;
+    };
+    GP_INLINE Yield yield(double rate, double pressure) const {
+        if (pressure <= 0.0)
+            return {0.0, 0.0};
+        const double a = rate_factor * std::sqrt(pressure), sum = a + 2.0 * rate, range = 2.0 * (mu_2 - mu_s);
+        return {(mu_s + range * rate / sum) * pressure, pressure * range * a / (sum * sum)};
+    }
+
     // eta_r in Pa s; 0 where there is no pressure.
     GP_INLINE double viscosity(double rate, double pressure) const {
-        if (pressure <= 0.0)
-            return 0.0;
-        const double mu = mu_s + 2.0 * (mu_2 - mu_s) * rate / (rate_factor * std::sqrt(pressure) + 2.0 * rate);
-        return mu * pressure / std::hypot(rate, delta);
+        return yield(rate, pressure).stress / std::hypot(rate, delta);
     }
 
     // tau = eta_r D in Pa. Its trace stays: the printed D is the whole one, and so resists changes of volume as well.

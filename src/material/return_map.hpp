@@ -45,6 +45,11 @@ struct ReturnMap {
         return 2.0 * h / (b + std::sqrt(discriminant > 0.0 ? discriminant : 0.0));
     }
 
+    // Is it yielding? What returned to mu_s p, as all that yields where mu_2 = mu_s, is there but for rounding.
+    GP_INLINE bool at_yield(double equivalent, double pressure) const {
+        return equivalent >= (1.0 - 1e-12) * mu_s * pressure;
+    }
+
     // The factor by which the trial deviator shrinks; 1 inside the yield surface, 0 where there is no pressure.
     GP_INLINE double shrink(double trial, double pressure, double dt) const {
         if (pressure <= 0.0)

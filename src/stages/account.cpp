@@ -82,8 +82,13 @@ template <bool Adjoint> void close_books(World &world) {
     world.shifted += world.velocity_span * dt;
     for (Plate &plate : world.walls.plates)
         if (plate.gap > 0) {
-            plate.gap -= dt * (plate.velocity().norm() + world.fastest);
-            world.lists_valid = world.lists_valid && plate.gap > 0;
+            const double approach = plate.velocity().norm() + world.fastest;
+            plate.gap -= dt * approach;
+            if (plate.gap <= 0) { // it matters from the next step on, whose size a fast one limits
+                world.lists_valid = false;
+                if (approach * dt > flow_share * world.constants.spacing)
+                    world.velocity_span = std::max(world.velocity_span, approach);
+            }
         }
 
     BlockSums total;
@@ -98,6 +103,7 @@ template <bool Adjoint> void close_books(World &world) {
         total.side_walls += block.side_walls;
         total.collisions += block.collisions;
         total.kinetic += block.kinetic;
+        total.densest = std::max(total.densest, block.densest);
     }
 
     const double penalty = Adjoint ? dt * (contact_power - total.internal_power - total.total_power) : 0.0;
@@ -114,6 +120,7 @@ template <bool Adjoint> void close_books(World &world) {
     ledger.collisions += total.collision_loss;
     ledger.side_walls += total.side_walls;
     ledger.largest_kinetic = std::max(ledger.largest_kinetic, total.kinetic);
+    world.max_compression = std::max(world.max_compression, total.densest - 1);
     world.collisions += total.collisions / 2;
     world.plastic_power = total.plastic / dt;
     world.unbalanced_share = world.mass > 0 ? total.unbalanced / world.mass : 0.0;

@@ -21,6 +21,7 @@ GP_MULTIVERSION void gradient_rows(const View &v, int64_t begin, int64_t end) {
         Moments m;
         add_moments(m, v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.vx[i], v.vy[i], v.x, v.y, v.vx, v.vy,
                     v.inverse_radius);
+        const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
         for (const Contact &contact : v.rows.contacts_of(i)) {
             Moments own;
             add_moments(own, v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
@@ -28,7 +29,8 @@ GP_MULTIVERSION void gradient_rows(const View &v, int64_t begin, int64_t end) {
             drop_wall_shear(v.plates[contact.plate], own.mxx, own.mxy, own.myx, own.myy);
             m += own;
         }
-        const SymmetricTensor g = inverse_shape(m, v.lattice_moment);
+        SymmetricTensor g = inverse_shape(m, v.lattice_moment);
+        g = {carried * g.xx, carried * g.xy, carried * g.yy};
         v.ixx[i] = g.xx;
         v.ixy[i] = g.xy;
         v.iyy[i] = g.yy;

@@ -7,27 +7,48 @@
 
 namespace gp::stages {
 
-// Stops before a non-finite acceleration reaches velocities and positions.
-void require_finite_accelerations(const World &world) {
-    double sum = 0;
-    for (const BlockSums &block : world.sums)
-        sum += block.acceleration2;
-    if (std::isfinite(sum))
+namespace {
+
+[[noreturn]] void diverged(const World &world, int64_t i, const std::string &what) {
+    const Particles &p = world.particles;
+    throw make_error(GP_E_DIVERGED, "%s of particle %lld at (%g, %g) m, time %g s, step %lld of %g s", what.c_str(),
+                     static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time,
+                     static_cast<long long>(world.clock.step), world.clock.dt);
+}
+
+} // namespace
+
+// The stages leave a sum per block: what is looked at particle by particle is a step that may be bad.
+void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay) {
+    const double dt = world.clock.dt;
+    const double most = motion_bound * world.constants.spacing / (dt * dt); // m/s2
+    const auto suspect = [&](const BlockSums &block) {
+        return block.unbounded || !(block.acceleration2 <= most * most);
+    };
+    if (std::none_of(world.sums.begin(), world.sums.end(), suspect))
         return;
     const Particles &p = world.particles;
+    for (int64_t i = 0; i < p.count; ++i) {
+        const double own = world.material_of(i).density;
+        if (!is_bounded_density(p.density[i] / own))
+            diverged(world, i,
+                     format_text("density: %g kg/m3, expected from 0 to below %g, %g times its material's own,",
+                                 p.density[i], density_bound * own, density_bound));
+    }
     for (int64_t i = 0; i < p.count; ++i)
-        if (!std::isfinite(p.ax[i] * p.ax[i] + p.ay[i] * p.ay[i]))
-            throw make_error(GP_E_DIVERGED,
-                             "forces: acceleration (%g, %g) m/s2 of particle %lld at (%g, %g) m, time %g s, step %lld",
-                             p.ax[i], p.ay[i], static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time,
-                             static_cast<long long>(world.clock.step));
-    throw make_error(GP_E_DIVERGED, "forces: accelerations too large to sum, time %g s, step %lld", world.clock.time,
-                     static_cast<long long>(world.clock.step));
+        if (!std::isfinite(p.sxx[i]) || !std::isfinite(p.sxy[i]))
+            diverged(world, i, format_text("stress: deviator (%g, %g) Pa", p.sxx[i], p.sxy[i]));
+    for (int64_t i = 0; i < p.count; ++i)
+        if (!(std::hypot(ax[i], ay[i]) <= most))
+            diverged(world, i,
+                     format_text("force: acceleration (%g, %g) m/s2, expected at most %g, a motion of %g dl in the "
+                                 "step,",
+                                 ax[i], ay[i], most, motion_bound));
 }
 
 void integrate(World &world) {
-    require_finite_accelerations(world);
     Particles &p = world.particles;
+    require_bounded_step(world, p.ax, p.ay);
     const double dt = world.clock.dt;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {

@@ -35,14 +35,20 @@ void number_density(World &world) {
                     w.ghost_x.data(), w.ghost_y.data(), 1.0 / c.interaction_radius,
                     p.density.data()};
     const double inverse = 1.0 / c.interaction_lattice.number_density;
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+        double densest = 0;
+        bool unbounded = false;
         number_density_rows(view, begin, end);
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &material = world.material_of(i);
             const double ratio = p.density[i] * inverse;
             p.density[i] = material.density * ratio;
             p.pressure[i] = state_pressure(ratio, material.bulk_modulus);
+            densest = ratio > densest ? ratio : densest;
+            unbounded |= !is_bounded_density(ratio);
         }
+        world.sums[block].densest = densest;
+        world.sums[block].unbounded = unbounded;
     });
     world.images.copy({&p.density, &p.pressure});
 }

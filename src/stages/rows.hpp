@@ -49,4 +49,12 @@ GP_INLINE void drop_wall_shear(const Plate &plate, double &xx, double &xy, doubl
     yy -= shear * t.y() * n.y();
 }
 
+// Beside a plate along which ghosts move with the particles, the penalty towards them could drive: it is left out.
+inline bool touches_slip(const World &world, int64_t i) {
+    for (const Contact &contact : Rows(world).contacts_of(i))
+        if (world.walls.plates[contact.plate].spec().friction != GP_WALL_NO_SLIP)
+            return true;
+    return false;
+}
+
 } // namespace gp::stages

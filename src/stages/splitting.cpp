@@ -39,7 +39,6 @@ template <bool Viscous> void advance_particles(World &world) {
 
 // ax, ay are left as the whole step's acceleration: what the ledger and gp_state.at_rest go by.
 template <class Late> void correct_by(World &world, const Late &late) {
-    require_finite_accelerations(world);
     Particles &p = world.particles;
     const double dt = world.clock.dt;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
@@ -62,19 +61,21 @@ void predict(World &world) {
 }
 
 void predict_with_viscosity(World &world) {
-    require_finite_accelerations(world);
+    require_bounded_step(world, world.particles.ax, world.particles.ay);
     advance_particles<true>(world);
     advance_ghosts(world);
 }
 
 void correct(World &world) {
     const Particles &p = world.particles;
+    require_bounded_step(world, p.ax, p.ay);
     const Vector g = world.constants.gravity; // in the predictor already
     correct_by(world, [&](int64_t i) { return Vector(p.ax[i] - g.x(), p.ay[i] - g.y()); });
 }
 
 void correct_by_pressure(World &world) {
     Particles &p = world.particles;
+    require_bounded_step(world, p.cxx, p.cxy);
     const Vector g = world.constants.gravity;
     correct_by(world, [&](int64_t i) {
         const Vector a(p.cxx[i], p.cxy[i]);

@@ -5,11 +5,25 @@
 
 namespace gp::stages {
 
-// Largest step that sound and flow allow: cfl dl / wave speed, and a quarter spacing of relative motion; shortened to
-// land on the end of the run.
+// What a step may do at most; beyond, the simulation has diverged. Relative to its material's own, a density is not below 0
+// (0 is that of a lone particle by its number density) and below 2: a blow as fast as sound makes it 2. In one step no
+// particle moves by more than a spacing against another, or by its acceleration: it would be past its neighbours without
+// having felt them. Sound moves nothing as far, and steps chosen for the flow end at a quarter.
+constexpr double density_bound = 2, motion_bound = 1; // 1, dl
+inline bool is_bounded_density(double ratio) {
+    return ratio >= 0 && ratio < density_bound; // not a NaN
+}
+
+// Relative motion allowed in one step that is not demanded, in dl: positions, and so neighbours, change little.
+constexpr double flow_share = 0.25;
+
+// The step's size, its reason and its bounds; shortened to land on the end of the run or of a part of a diverged step.
 void choose_dt(World &world);
-// The largest step that is stable for sound, for a demanded time step.
+// The largest step that is stable for waves, viscous terms and loaded plates: what a host may demand.
 double stable_dt(const Constants &constants);
+// Throws if the flow is so much faster than sound that its steps would be next to nothing: GP_E_DIVERGED, at the start
+// GP_E_ARGUMENT.
+void require_moderate_flow(const World &world);
 
 void move_plates(World &world);
 void update_neighbors(World &world);
@@ -32,8 +46,9 @@ void wall_stress(World &world);
 void force(World &world);
 // u, then r.
 void integrate(World &world);
-// Throws GP_E_DIVERGED if an acceleration is not a finite number.
-void require_finite_accelerations(const World &world);
+// Throws GP_E_DIVERGED if a density, a stress or an acceleration is not finite or out of bounds. Comes before the first
+// change to the particles that undo.hpp does not take back. ax, ay: those that BlockSums::acceleration2 was summed of.
+void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay);
 // Coulomb friction of plates.
 void wall_friction(World &world);
 // Coulomb friction of the channel's side walls.
@@ -46,6 +61,19 @@ void wall_contact(World &world);
 void account(World &world);
 // The part of account that the next step's size follows from; also run before the first step.
 void measure_velocities(World &world);
+
+// ------------------------------------------------------------------------------------- of the implicit scheme
+
+// Ghost velocities for the change of volume alone.
+void wall_volume_velocity(World &world);
+// -p K^-1, with the penalty's half of L.
+void pressure_over_shape(World &world);
+// Ghost pressures extrapolated from the particles.
+void wall_isotropic_stress(World &world);
+// The operators of the viscous equations at r^k.
+void viscous_system(World &world);
+// Velocity and stress at the end of the step, by the regularised law.
+void viscous_solve(World &world);
 
 // ------------------------------------------------------------------------------------ of the paper's schemes
 

@@ -1,20 +1,10 @@
 #include "parallel.hpp"
+#include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
 
 namespace {
-
-// Beside a plate along which ghosts move with the particles, the penalty towards them could drive: it is left out.
-bool touches_slip(const World &world, int64_t i) {
-    const Walls &walls = world.walls;
-    if (!walls.in_reach())
-        return false;
-    for (int32_t k = walls.contact_start[i]; k < walls.contact_start[i + 1]; ++k)
-        if (walls.plates[walls.contacts[k].plate].spec().friction != GP_WALL_NO_SLIP)
-            return true;
-    return false;
-}
 
 template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t begin, int64_t end) {
     Particles &p = world.particles;

@@ -30,6 +30,9 @@ void wrap(World &world) {
 // few steps it grows with the root of the shift per step.
 constexpr double thinnest_skin = 0.1, thickest_skin = 0.8, skin_factor = 2.0;
 
+// Of the particles about a ghost's mirror point, in dl: one of a dense set is always within a spacing.
+constexpr double mirror_reach = 1.5;
+
 } // namespace
 
 void update_neighbors(World &world) {
@@ -59,9 +62,13 @@ void update_neighbors(World &world) {
                    world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads,
                    world.neighbors);
     world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing, world.threads);
-    if (c.scheme != Scheme::adjoint)
+    if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
-    world.lists_valid = true;
+    if (c.scheme == Scheme::implicit)
+        world.mirrors.find(world.walls, world.particles, world.grid, world.images,
+                           mirror_reach * c.spacing + world.skin);
+    world.lists_valid = world.lists_new = true;
+    world.listed.clear();
 }
 
 void update_images(World &world) {

@@ -10,10 +10,6 @@ namespace gp::stages {
 
 namespace {
 
-// A particle nearer than this to a plate and approaching collides with it: the collision distance of 0.9 dl from the
-// first layer of ghosts, half a spacing behind the surface.
-constexpr double contact_distance = 0.4; // dl
-
 // Gives particle i the velocity change (relative to nothing: the lab's) that a plate causes in this step.
 void push(World &world, const Contact &contact, const Vector &change) {
     Particles &p = world.particles;

@@ -181,3 +181,55 @@ TEST(InverseShape, IsPlainWhereItCanAndVanishesWhereItMust) {
                  above = deficient_inverse(1, 0, floor * (1 + 1e-9), k0);
     EXPECT_NEAR(below(1, 1), above(1, 1), 1e-6 * above(1, 1));
 }
+
+// What the time step's limit takes from the lattice's waves is what the stages do to one, away from the edges.
+TEST(Wave, IsWhatTheStagesMakeOfIt) {
+    constexpr int n = 32, a = 16, b = 8; // of the half period's 32 parts
+    Block block(n, 0, 0.05);
+    World &world = *block.world;
+    Particles &p = world.particles;
+    const Constants &c = world.constants;
+    Wave wave{};
+    int next = 0;
+    for_each_wave(c.horizon, c.spacing, [&](const Wave &visited) {
+        if (next++ == a * (a + 1) / 2 + b)
+            wave = visited;
+    });
+    EXPECT_EQ(next, 33 * 34 / 2);
+    const double k = std::acos(-1.0) / 32 / c.spacing;
+    const auto phase = [&](double x, double y) { return k * (a * x + b * y); };
+    const auto sine = [&](double x, double y) { return std::sin(phase(x, y)); };
+    const auto interior = [](double x, double y) { return std::min({x, y, 1 - x, 1 - y}) > 0.3; };
+
+    block.set(p.vx, sine);
+    stages::gradient(world);
+    for (double &value : p.pressure) // stressed, as the penalty wants it, but without a force of its own
+        value = 1e-9;
+    stages::stress(world);
+    stages::force(world);
+    int64_t looked_at = 0;
+    for (int64_t i = 0; i < p.count; ++i) {
+        if (!interior(p.x[i], p.y[i]))
+            continue;
+        ++looked_at;
+        const double cosine = std::cos(phase(p.x[i], p.y[i]));
+        const double gradient2 = c.volume * (p.lxx[i] * p.lxx[i] + p.lxy[i] * p.lxy[i]);
+        ASSERT_NEAR(gradient2, wave.gradient2 * cosine * cosine, 1e-12);
+        const double rate = c.penalty * c.lattice.number_density / world.material_of(i).density;
+        ASSERT_NEAR(p.ax[i], -rate * wave.unseen * p.vx[i], 1e-9 * rate);
+    }
+    EXPECT_GT(looked_at, 100);
+
+    world.clock.dt = 1e-4;
+    const double own = world.material_of(0).density, height = 1e-3 * own;
+    block.set(p.density, [&](double x, double y) { return own + height * sine(x, y); });
+    for (double &value : p.pressure) // without pressure all of it flows
+        value = 0;
+    stages::density_diffusion(world);
+    const double share = world.scene->config().density_diffusion * c.sound_speed / c.spacing * world.clock.dt;
+    for (int64_t i = 0; i < p.count; ++i)
+        if (interior(p.x[i], p.y[i])) {
+            ASSERT_NEAR(p.density[i] - own, (1 - share * wave.difference) * height * sine(p.x[i], p.y[i]),
+                        1e-9 * height);
+        }
+}

@@ -1,0 +1,29 @@
+// The particles about a ghost's mirror point, as far in front of the plate as the ghost is behind it: what the ghost's
+// velocity follows from in the implicit scheme. Where there is none (thin layers, corners), those that see the ghost.
+#pragma once
+
+#include <cstdint>
+
+#include "neighbors.hpp"
+#include "particles.hpp"
+#include "walls.hpp"
+
+namespace gp {
+
+struct Mirrors {
+    NeighborList of_ghost;        // particles and images of each ghost (close_count unused)
+    Field<int64_t> contact_start; // entries of contact c: contact_start[c] .. contact_start[c + 1]
+    Field<int32_t> ghost;         // of an entry
+    Field<int64_t> place;         // of an entry in of_ghost.index
+
+    // Of particles within `radius` of the mirror points that are in contact with the ghost's plate.
+    void find(const Walls &walls, const Particles &particles, const CellGrid &grid, const Images &images,
+              double radius);
+
+    int64_t bytes() const {
+        return of_ghost.bytes() + static_cast<int64_t>((contact_start.capacity() + place.capacity()) * sizeof(int64_t) +
+                                                       ghost.capacity() * sizeof(int32_t));
+    }
+};
+
+} // namespace gp

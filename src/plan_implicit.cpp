@@ -1,0 +1,38 @@
+// GP_STRESS_IMPLICIT as a stage list: the default scheme with the regularised law, solved implicitly, for the return map.
+#include "plan.hpp"
+#include "stage_rows.hpp"
+#include "stages/stages.hpp"
+
+namespace gp {
+
+std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<PlannedStage> &default_stages) {
+    const StageRows rows{t, default_stages};
+    return {
+        rows.same("choose_dt"),
+        rows.same("move_plates"),
+        rows.same("update_neighbors"),
+        rows.same("keep_fields"),
+        rows.other("wall_velocity", stages::wall_volume_velocity),
+        rows.same("gradient"),
+        rows.same("density_diffusion"),
+        rows.same("density"),
+        // reads velocity gradient, pressure; writes -p K^-1
+        rows.particles("pressure_over_shape", "force states of the pressure", stages::pressure_over_shape),
+        // reads pressure; writes ghost stress
+        rows.other("wall_stress", stages::wall_isotropic_stress),
+        rows.same("force"),
+        // reads position; writes the operators of the viscous equations
+        rows.particles("viscous_system", "regularised mu(I) law, implicit", stages::viscous_system),
+        rows.same("integrate"),
+        // reads velocity, pressure; writes velocity, position, stress
+        rows.particles("viscous_solve", "regularised mu(I) law, implicit", stages::viscous_solve),
+        rows.same("wall_friction"),
+        rows.same("side_wall_friction"),
+        rows.same("collide"),
+        rows.same("wall_contact"),
+        rows.same("update_images"),
+        rows.same("account"),
+    };
+}
+
+} // namespace gp

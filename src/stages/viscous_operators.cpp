@@ -1,0 +1,435 @@
+#include "stages/viscous_operators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel.hpp"
+#include "parallel.hpp"
+#include "stages/rows.hpp"
+
+namespace gp::stages {
+
+namespace {
+
+struct View {
+    Rows rows;
+    const Plate *plates;
+    const double *qx, *qy, *w;                   // w r and w of pairs
+    const double *ghost_qx, *ghost_qy, *ghost_w; // of contacts
+    const double *gxx, *gxy, *gyy;               // K^-1
+
+    explicit View(const World &world)
+        : rows(world), plates(world.walls.plates.data()), qx(world.viscous.pair.x.data()),
+          qy(world.viscous.pair.y.data()), w(world.viscous.pair_weight.data()),
+          ghost_qx(world.viscous.contact_pair.x.data()), ghost_qy(world.viscous.contact_pair.y.data()),
+          ghost_w(world.viscous.contact_weight.data()), gxx(world.particles.gxx.data()),
+          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()) {}
+};
+
+GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, const double *__restrict y,
+                               double inverse_radius, double *__restrict qx, double *__restrict qy,
+                               double *__restrict ws, int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) {
+        const double xi = x[i], yi = y[i];
+#pragma omp simd
+        for (int64_t k = rows.start[i]; k < rows.start[i + 1]; ++k) {
+            const int32_t j = rows.index[k];
+            const double dx = x[j] - xi, dy = y[j] - yi;
+            const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+            ws[k] = w;
+            qx[k] = w * dx;
+            qy[k] = w * dy;
+        }
+    }
+}
+
+// A ghost's velocity is that at its mirror point, turned round. The particles' shares in it fall off so fast with their
+// distance from the point that on a lattice the mirror particle has it all but alone: then a uniform stress is in
+// equilibrium row by row. With the wide average of the default scheme's ghosts plates drag too much (rows beside a plate
+// overtake it).
+constexpr double core = 0.5; // dl
+
+// Closer to the plate than this, the particles about the mirror point do not tell the slope (there are none, and others
+// take their place).
+constexpr double least_distance = 0.25; // dl
+
+// Shares and ratios of the ghosts, ways between ghosts and particles.
+void make_ghosts(World &world) {
+    const Walls &w = world.walls;
+    const Particles &p = world.particles;
+    const Mirrors &mirrors = world.mirrors;
+    ViscousSystem &v = world.viscous;
+    const double inverse_radius = 1.0 / world.constants.horizon, spacing = world.constants.spacing;
+    v.seen_pair.resize(static_cast<int64_t>(w.particles_of_ghost.index.size()));
+    v.seen_weight.resize(v.seen_pair.x.size());
+    v.contact_pair.resize(static_cast<int64_t>(w.ghost_of_contact.size()));
+    v.contact_weight.resize(v.contact_pair.x.size());
+    v.mirror_share.resize(static_cast<int64_t>(mirrors.of_ghost.index.size()));
+    v.ghost_normal.resize(w.ghost_count);
+    v.ghost_tangential.resize(w.ghost_count);
+    v.ghost_velocity.resize(w.ghost_count);
+    v.ghost_force.resize(w.ghost_count);
+    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t g = begin; g < end; ++g) {
+            for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
+                const int32_t i = w.particles_of_ghost.index[k];
+                const double dx = w.ghost_x[g] - p.x[i], dy = w.ghost_y[g] - p.y[i];
+                const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+                v.seen_weight[k] = q;
+                v.seen_pair.x[k] = q * dx;
+                v.seen_pair.y[k] = q * dy;
+            }
+            const Plate &plate = w.plates[w.ghost_plate[g]];
+            const double shift = w.ghost_shift.empty() ? 0.0 : w.ghost_shift[g];
+            const Vector mirror = Vector(w.ghost_x[g], w.ghost_y[g]) + 2 * w.ghost_depth[g] * plate.segment().normal;
+            double sum = 0, distance = 0;
+            for (int64_t k = mirrors.of_ghost.start[g]; k < mirrors.of_ghost.start[g + 1]; ++k) {
+                const int32_t i = mirrors.of_ghost.index[k];
+                const double dx = p.x[i] - mirror.x(), dy = p.y[i] - mirror.y();
+                const double soft = 1.0 / (dx * dx + dy * dy + core * core * spacing * spacing);
+                const double share = soft * soft * soft * soft;
+                v.mirror_share[k] = share;
+                sum += share;
+                distance += share * plate.segment().distance({p.x[i] - shift, p.y[i]});
+            }
+            for (int64_t k = mirrors.of_ghost.start[g]; k < mirrors.of_ghost.start[g + 1]; ++k)
+                v.mirror_share[k] /= sum;
+            const double ratio = w.ghost_depth[g] / std::max(distance / sum, least_distance * spacing);
+            v.ghost_normal[g] = -ratio;
+            // Without friction of its own a plate passes no shear through its surface.
+            v.ghost_tangential[g] = plate.spec().friction == GP_WALL_NO_SLIP ? -ratio : 1.0;
+        }
+    });
+    for_each_block(world.threads, static_cast<int64_t>(w.contacts.size()), [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t c = begin; c < end; ++c) {
+            const int64_t i = w.contacts[c].particle;
+            for (int64_t k = w.contacts[c].begin; k < w.contacts[c].end; ++k) {
+                const int32_t g = w.ghost_of_contact[k];
+                const double dx = w.ghost_x[g] - p.x[i], dy = w.ghost_y[g] - p.y[i];
+                const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+                v.contact_weight[k] = q;
+                v.contact_pair.x[k] = q * dx;
+                v.contact_pair.y[k] = q * dy;
+            }
+        }
+    });
+}
+
+// Over a lattice that ends at a plate: sum of Q y / sum of Q^2 over one column of particles, where y is a particle's
+// distance from the plate and Q = sum of w (way across the plate) over the ghosts that it sees.
+double lever_of_lattice(double horizon, double spacing) {
+    const int reach = static_cast<int>(std::ceil(horizon / spacing));
+    double first = 0, second = 0;
+    for (int row = 0; row < reach; ++row) {
+        double q = 0;
+        for (int down = row + 1; down <= reach; ++down)
+            for (int along = -reach; along <= reach; ++along)
+                q += down * spacing * weight(spacing * std::hypot(down, along), 1.0 / horizon);
+        first += q * (row + 0.5) * spacing;
+        second += q * q;
+    }
+    return first / second;
+}
+
+// The pressure that the yield stress goes by. What a plate takes from the material is the sum of Q s over the rows that
+// see its ghosts: their mean stress, as it is about a spacing inside, in place of that at the plate. On a floor, where
+// the pressure grows by the weight, this is too little by a spacing over the depth. So these rows' yield stress goes by
+// a pressure that is larger by the weight of as much material, in proportion to Q.
+void find_yield_pressure(World &world) {
+    const Particles &p = world.particles;
+    ViscousSystem &v = world.viscous;
+    const Constants &c = world.constants;
+    if (v.lever == 0)
+        v.lever = lever_of_lattice(c.horizon, c.spacing);
+    std::copy(p.pressure.begin(), p.pressure.begin() + p.count, v.pressure.begin());
+    for (const Contact &contact : world.walls.contacts) {
+        const Vector &n = world.walls.plates[contact.plate].segment().normal;
+        const int64_t i = contact.particle;
+        if (p.pressure[i] <= 0)
+            continue;
+        double q = 0;
+        for (int64_t k = contact.begin; k < contact.end; ++k)
+            q -= v.contact_pair.x[k] * n.x() + v.contact_pair.y[k] * n.y();
+        const double weight_of_lever = -p.density[i] * c.gravity.dot(n) * v.lever * q;
+        v.pressure[i] = std::max(0.0, v.pressure[i] + weight_of_lever);
+    }
+}
+
+// (tangential t (x) t + normal n (x) n) a
+GP_INLINE Vector scaled(const Segment &s, double tangential, double normal, const Vector &a) {
+    return tangential * s.tangent.dot(a) * s.tangent + normal * s.normal.dot(a) * s.normal;
+}
+
+void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
+    const Walls &w = world.walls;
+    const NeighborList &mirrors = world.mirrors.of_ghost;
+    ViscousSystem &v = world.viscous;
+    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t g = begin; g < end; ++g) {
+            const Plate &plate = w.plates[w.ghost_plate[g]];
+            Vector mean = Vector::Zero();
+            for (int64_t k = mirrors.start[g]; k < mirrors.start[g + 1]; ++k) {
+                const int32_t i = mirrors.index[k];
+                mean += v.mirror_share[k] * Vector(u.x[i], u.y[i]);
+            }
+            Vector own = Vector::Zero();
+            if (plates == Plates::move)
+                own = plate.velocity();
+            const Vector ghost = own + scaled(plate.segment(), v.ghost_tangential[g], v.ghost_normal[g], mean - own);
+            v.ghost_velocity.x[g] = ghost.x();
+            v.ghost_velocity.y[g] = ghost.y();
+        }
+    });
+}
+
+GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const double *__restrict uy,
+                               const double *gx, const double *gy, double *oxx, double *oxy, double *oyx, double *oyy,
+                               int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) {
+        const double ui = ux[i], vi = uy[i];
+        double mxx = 0, mxy = 0, myx = 0, myy = 0;
+#pragma omp simd reduction(+ : mxx, mxy, myx, myy)
+        for (int64_t k = v.rows.start[i]; k < v.rows.start[i + 1]; ++k) {
+            const int32_t j = v.rows.index[k];
+            const double du = ux[j] - ui, dv = uy[j] - vi;
+            mxx += du * v.qx[k];
+            mxy += du * v.qy[k];
+            myx += dv * v.qx[k];
+            myy += dv * v.qy[k];
+        }
+        for (const Contact &contact : v.rows.contacts_of(i)) {
+            double xx = 0, xy = 0, yx = 0, yy = 0;
+#pragma omp simd reduction(+ : xx, xy, yx, yy)
+            for (int64_t k = contact.begin; k < contact.end; ++k) {
+                const int32_t g = v.rows.ghost_index[k];
+                const double du = gx[g] - ui, dv = gy[g] - vi;
+                xx += du * v.ghost_qx[k];
+                xy += du * v.ghost_qy[k];
+                yx += dv * v.ghost_qx[k];
+                yy += dv * v.ghost_qy[k];
+            }
+            drop_wall_shear(v.plates[contact.plate], xx, xy, yx, yy);
+            mxx += xx;
+            mxy += xy;
+            myx += yx;
+            myy += yy;
+        }
+        oxx[i] = mxx * v.gxx[i] + mxy * v.gxy[i];
+        oxy[i] = mxx * v.gxy[i] + mxy * v.gyy[i];
+        oyx[i] = myx * v.gxx[i] + myy * v.gxy[i];
+        oyy[i] = myx * v.gxy[i] + myy * v.gyy[i];
+    }
+}
+
+// Force on each ghost: -sum C_i w r + c_i w (u_ghost - u_i) over the particles that see it.
+void find_ghost_forces(World &world, const VectorField &u) {
+    const Walls &w = world.walls;
+    const Particles &p = world.particles;
+    ViscousSystem &v = world.viscous;
+    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t g = begin; g < end; ++g) {
+            const Plate &plate = w.plates[w.ghost_plate[g]];
+            double fx = 0, fy = 0;
+            for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
+                const int32_t i = w.particles_of_ghost.index[k];
+                double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
+                drop_wall_shear(plate, xx, xy, yx, yy);
+                const double share = v.stiffness[i] * v.seen_weight[k];
+                fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k] + share * (v.ghost_velocity.x[g] - u.x[i]);
+                fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k] + share * (v.ghost_velocity.y[g] - u.y[i]);
+            }
+            v.ghost_force.x[g] = fx;
+            v.ghost_force.y[g] = fy;
+        }
+    });
+}
+
+GP_INLINE Vector force_of_contact(const View &v, const World &world, const VectorField &u, const Contact &contact) {
+    const Particles &p = world.particles;
+    const ViscousSystem &s = world.viscous;
+    const int64_t i = contact.particle;
+    const Plate &plate = v.plates[contact.plate];
+    double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
+    drop_wall_shear(plate, xx, xy, yx, yy);
+    Vector force = Vector::Zero();
+    for (int64_t k = contact.begin; k < contact.end; ++k) {
+        const int32_t g = v.rows.ghost_index[k];
+        const double share = s.stiffness[i] * v.ghost_w[k];
+        force += Vector(xx * v.ghost_qx[k] + xy * v.ghost_qy[k] + share * (s.ghost_velocity.x[g] - u.x[i]),
+                        yx * v.ghost_qx[k] + yy * v.ghost_qy[k] + share * (s.ghost_velocity.y[g] - u.y[i]));
+    }
+    const Mirrors &mirrors = world.mirrors;
+    const int64_t c = &contact - world.walls.contacts.data();
+    for (int64_t k = mirrors.contact_start[c]; k < mirrors.contact_start[c + 1]; ++k) {
+        const int32_t g = mirrors.ghost[k];
+        force += s.mirror_share[mirrors.place[k]] * scaled(plate.segment(), s.ghost_tangential[g], s.ghost_normal[g],
+                                                           Vector(s.ghost_force.x[g], s.ghost_force.y[g]));
+    }
+    return force;
+}
+
+struct Sources {
+    const double *cxx, *cxy, *cyx, *cyy, *stiffness, *ux, *uy;
+};
+
+GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorField &u, const Sources &sources,
+                                double *fx, double *fy, int64_t begin, int64_t end) {
+    const double *__restrict cxx = sources.cxx, *__restrict cxy = sources.cxy, *__restrict cyx = sources.cyx,
+                             *__restrict cyy = sources.cyy;
+    const double *__restrict stiffness = sources.stiffness, *__restrict ux = sources.ux, *__restrict uy = sources.uy;
+    for (int64_t i = begin; i < end; ++i) {
+        double qx = 0, qy = 0, tx = 0, ty = 0;
+        const double own = stiffness[i], ui = ux[i], vi = uy[i];
+#pragma omp simd reduction(+ : qx, qy, tx, ty)
+        for (int64_t k = v.rows.start[i]; k < v.rows.start[i + 1]; ++k) {
+            const int32_t j = v.rows.index[k];
+            const double share = v.w[k] * (own + stiffness[j]);
+            qx += v.qx[k];
+            qy += v.qy[k];
+            tx += cxx[j] * v.qx[k] + cxy[j] * v.qy[k] + share * (ux[j] - ui);
+            ty += cyx[j] * v.qx[k] + cyy[j] * v.qy[k] + share * (uy[j] - vi);
+        }
+        double sx = cxx[i] * qx + cxy[i] * qy + tx, sy = cyx[i] * qx + cyy[i] * qy + ty;
+        for (const Contact &contact : v.rows.contacts_of(i)) {
+            const Vector force = force_of_contact(v, world, u, contact);
+            sx += force.x();
+            sy += force.y();
+        }
+        fx[i] = sx;
+        fy[i] = sy;
+    }
+}
+
+// Where L is not the best fit to the velocities around (few neighbours, a plate that takes no shear), what it does not
+// see has no energy of its own to be the derivative of.
+void mark_regular(World &world) {
+    const Particles &p = world.particles;
+    ViscousSystem &v = world.viscous;
+    const Rows rows(world);
+    v.regular.resize(p.count);
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t i = begin; i < end; ++i) {
+            double kxx = 0, kxy = 0, kyy = 0;
+            const auto add = [&](double w, double qx, double qy) {
+                if (w > 0) {
+                    kxx += qx * qx / w;
+                    kxy += qx * qy / w;
+                    kyy += qy * qy / w;
+                }
+            };
+            for (int64_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                add(v.pair_weight[k], v.pair.x[k], v.pair.y[k]);
+            for (const Contact &contact : rows.contacts_of(i))
+                for (int64_t k = contact.begin; k < contact.end; ++k)
+                    add(v.contact_weight[k], v.contact_pair.x[k], v.contact_pair.y[k]);
+            const double off = std::abs(kxx * p.gxx[i] + kxy * p.gxy[i] - 1) +
+                               std::abs(kxy * p.gxy[i] + kyy * p.gyy[i] - 1) +
+                               std::abs(kxx * p.gxy[i] + kxy * p.gyy[i]);
+            v.regular[i] = off < 1e-6 && !touches_slip(world, i) ? 1.0 : 0.0;
+        }
+    });
+}
+
+GP_MULTIVERSION void diagonal_rows(const View &v, const double *__restrict kxx, const double *__restrict kxy,
+                                   const double *__restrict kyy, const double *__restrict stiffness, double *diagonal,
+                                   int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i) {
+        double qx = 0, qy = 0, sum = 0;
+#pragma omp simd reduction(+ : qx, qy, sum)
+        for (int64_t k = v.rows.start[i]; k < v.rows.start[i + 1]; ++k) {
+            const int32_t j = v.rows.index[k];
+            const double x = v.qx[k], y = v.qy[k];
+            qx += x;
+            qy += y;
+            sum += v.w[k] * (stiffness[i] + stiffness[j]) + kxx[j] * x * x + 2.0 * kxy[j] * x * y + kyy[j] * y * y;
+        }
+        for (const Contact &contact : v.rows.contacts_of(i))
+            for (int64_t k = contact.begin; k < contact.end; ++k) {
+                qx += v.ghost_qx[k];
+                qy += v.ghost_qy[k];
+            }
+        diagonal[i] = sum + kxx[i] * qx * qx + 2.0 * kxy[i] * qx * qy + kyy[i] * qy * qy;
+    }
+}
+
+} // namespace
+
+void make_viscous_system(World &world) {
+    const Particles &p = world.particles;
+    ViscousSystem &v = world.viscous;
+    v.pair.resize(static_cast<int64_t>(world.neighbors.index.size()));
+    v.pair_weight.resize(v.pair.x.size());
+    const Rows rows(world);
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        pair_rows(rows, p.x.data(), p.y.data(), 1.0 / world.constants.horizon, v.pair.x.data(), v.pair.y.data(),
+                  v.pair_weight.data(), begin, end);
+    });
+    make_ghosts(world);
+    v.pressure.resize(p.count);
+    find_yield_pressure(world);
+    mark_regular(world);
+}
+
+void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) {
+    ViscousSystem &v = world.viscous;
+    world.images.copy({&u.x, &u.y});
+    if (world.walls.in_reach())
+        find_ghost_velocities(world, u, plates);
+    const View view(world);
+    for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
+        rate_rows(view, u.x.data(), u.y.data(), v.ghost_velocity.x.data(), v.ghost_velocity.y.data(), v.lxx.data(),
+                  v.lxy.data(), v.lyx.data(), v.lyy.data(), begin, end);
+        for (int64_t i = begin; i < end; ++i) {
+            e.x[i] = 0.5 * (v.lxx[i] - v.lyy[i]);
+            e.y[i] = 0.5 * (v.lxy[i] + v.lyx[i]);
+        }
+    });
+}
+
+void viscous_forces(World &world, const VectorField &s, const VectorField &u, VectorField &f) {
+    Particles &p = world.particles;
+    const ViscousSystem &v = world.viscous;
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t i = begin; i < end; ++i) {
+            const double c = v.stiffness[i];
+            p.cxx[i] = s.x[i] * p.gxx[i] + s.y[i] * p.gxy[i] - c * v.lxx[i];
+            p.cxy[i] = s.x[i] * p.gxy[i] + s.y[i] * p.gyy[i] - c * v.lxy[i];
+            p.cyx[i] = s.y[i] * p.gxx[i] - s.x[i] * p.gxy[i] - c * v.lyx[i];
+            p.cyy[i] = s.y[i] * p.gxy[i] - s.x[i] * p.gyy[i] - c * v.lyy[i];
+        }
+    });
+    world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
+    if (world.walls.in_reach())
+        find_ghost_forces(world, u);
+    const View view(world);
+    const Sources sources{p.cxx.data(),       p.cxy.data(), p.cyx.data(), p.cyy.data(),
+                          v.stiffness.data(), u.x.data(),   u.y.data()};
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        force_rows(view, world, u, sources, f.x.data(), f.y.data(), begin, end);
+    });
+}
+
+Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact) {
+    return force_of_contact(View(world), world, u, contact);
+}
+
+// With eta in place of H the block of particle i is eta/2 |K^-1 q|^2 for each row of rates that q stands in.
+void viscous_diagonal(World &world, const Field<double> &eta, Field<double> &diagonal) {
+    Particles &p = world.particles;
+    ViscousSystem &v = world.viscous;
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t i = begin; i < end; ++i) {
+            const double half = 0.5 * eta[i];
+            v.kxx[i] = half * (p.gxx[i] * p.gxx[i] + p.gxy[i] * p.gxy[i]);
+            v.kxy[i] = half * p.gxy[i] * (p.gxx[i] + p.gyy[i]);
+            v.kyy[i] = half * (p.gxy[i] * p.gxy[i] + p.gyy[i] * p.gyy[i]);
+        }
+    });
+    world.images.copy({&v.kxx, &v.kxy, &v.kyy});
+    const View view(world);
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        diagonal_rows(view, v.kxx.data(), v.kxy.data(), v.kyy.data(), v.stiffness.data(), diagonal.data(), begin, end);
+    });
+}
+
+} // namespace gp::stages

@@ -1,0 +1,97 @@
+#include "undo.hpp"
+
+#include <algorithm>
+
+#include "parallel.hpp"
+
+namespace gp {
+
+namespace {
+
+std::vector<Field<double> *> fields_changed_in_place(World &world) {
+    Particles &p = world.particles;
+    std::vector<Field<double> *> fields{&p.density, &p.pressure, &p.sxx, &p.sxy};
+    const Scheme scheme = world.constants.scheme;
+    if (scheme != Scheme::adjoint) // particles move before all of the step is known
+        fields.insert(fields.end(), {&p.x, &p.y, &p.vx, &p.vy});
+    if (by_number_density(scheme))
+        fields.push_back(&p.syy);
+    return fields;
+}
+
+std::vector<Field<double> *> fields_made_anew(World &world) {
+    Particles &p = world.particles;
+    return {&p.lxx, &p.lxy, &p.lyx, &p.lyy};
+}
+
+// The order of before the step's sort. Lists and cells stay those of the sorted order, to be read through `listed`.
+void undo_sort(World &world) {
+    const Field<int32_t> &order = world.grid.order();
+    Field<int32_t> place(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k)
+        place[order[k]] = static_cast<int32_t>(k);
+    world.listed = order;
+    world.particles.reorder(place, world.threads);
+}
+
+} // namespace
+
+void begin_step(World &world) {
+    StepStart &start = world.step_start;
+    start.clock = world.clock;
+    start.ledger = world.ledger;
+    start.plates = world.walls.plates;
+    start.shifted = world.shifted;
+    start.fields_kept = false;
+    world.lists_new = false;
+}
+
+void keep_fields(World &world) {
+    StepStart &start = world.step_start;
+    const std::vector<Field<double> *> changed = fields_changed_in_place(world), made = fields_made_anew(world);
+    start.copied.resize(changed.size());
+    start.made.resize(made.size());
+    for (std::size_t k = 0; k < changed.size(); ++k)
+        start.copied[k].resize(world.particles.count);
+    for (std::size_t k = 0; k < made.size(); ++k)
+        start.made[k].resize(made[k]->size()); // with the places of images
+    for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
+        for (std::size_t k = 0; k < changed.size(); ++k)
+            std::copy(changed[k]->data() + begin, changed[k]->data() + end, start.copied[k].data() + begin);
+    });
+    for (std::size_t k = 0; k < made.size(); ++k)
+        made[k]->swap(start.made[k]);
+    start.fields_kept = true;
+}
+
+void undo_step(World &world) {
+    StepStart &start = world.step_start;
+    if (start.fields_kept) {
+        const std::vector<Field<double> *> changed = fields_changed_in_place(world), made = fields_made_anew(world);
+        for (std::size_t k = 0; k < changed.size(); ++k)
+            std::copy(start.copied[k].begin(), start.copied[k].end(), changed[k]->begin());
+        for (std::size_t k = 0; k < made.size(); ++k)
+            made[k]->swap(start.made[k]);
+        const Particles &p = world.particles;
+        if (world.images.count > 0) {
+            world.images.copy_positions(world.particles);
+            for (Field<double> *field : changed)
+                if (field != &p.x && field != &p.y)
+                    world.images.copy(*field);
+        }
+    }
+    if (world.lists_new) {
+        world.lists_valid = false; // the plates are about to be where they were
+        if (start.fields_kept && !world.constants.period)
+            undo_sort(world);
+    }
+    start.fields_kept = false;
+    const double wound = world.ledger.wound; // positions that have returned into the period stay there
+    world.clock = start.clock;
+    world.ledger = start.ledger;
+    world.ledger.wound = wound;
+    world.walls.plates = start.plates;
+    world.shifted = start.shifted;
+}
+
+} // namespace gp

@@ -1,0 +1,85 @@
+// What GP_STRESS_IMPLICIT keeps of one step: the operators of its equations on the step's neighbourhoods, and the vectors
+// of the solver. Empty in the other schemes. stages/viscous_operators.hpp has the equations.
+#pragma once
+
+#include <cstdint>
+
+#include "particles.hpp"
+
+namespace gp {
+
+// Two components of every particle; with room for the images where neighbours read it.
+struct VectorField {
+    Field<double> x, y;
+    void resize(int64_t n) {
+        x.resize(n);
+        y.resize(n);
+    }
+    int64_t bytes() const { return static_cast<int64_t>((x.capacity() + y.capacity()) * sizeof(double)); }
+};
+
+struct ViscousSystem {
+    // w r_ij and w of every pair, in the order of the neighbour lists; of every contact's ghosts; of every ghost's particles.
+    VectorField pair, contact_pair, seen_pair;
+    Field<double> pair_weight, contact_weight, seen_weight;
+    Field<double> regular; // 1 where K^-1 is the inverse of K, and no plate without friction of its own is seen; else 0
+    // The share in a ghost's velocity of each particle about its mirror point.
+    Field<double> mirror_share;
+    // u_ghost - u_plate = (tangential t (x) t + normal n (x) n) (u_mean - u_plate)
+    Field<double> ghost_normal, ghost_tangential;
+    VectorField ghost_velocity, ghost_force;
+    Field<double> pressure; // Pa, that the yield stress goes by
+    double lever = 0;       // m, see yield_pressure() in viscous_operators.cpp
+
+    VectorField target;               // u*, m/s
+    VectorField velocity, rate;       // u, m/s; e = (D_xx - D_yy, 2 D_xy) / 2, 1/s
+    Field<double> lxx, lxy, lyx, lyy; // velocity gradient of the last viscous_rates, 1/s
+    Field<double> stiffness;          // of what the gradient does not see, Pa s/m2 per unit of w
+    VectorField stress;               // s_xx, s_xy, Pa
+    VectorField force;                // N/m3
+    VectorField change, rate_change, residual, direction, image, bend; // of the linear solve
+    Field<double> diagonal;
+    Field<double> hxx, hxy, hyy; // of the linearised law, Pa s
+    Field<double> viscosity;     // Pa s
+    Field<double> kxx, kxy, kyy; // of the diagonal
+    Field<double> partial;       // sums per block
+
+    // Over the whole run.
+    int64_t newton = 0, linear = 0, failures = 0;
+    int32_t last = 0;
+    double last_residual = 0;
+
+    int64_t bytes() const {
+        int64_t total = 0;
+        for (const VectorField *field :
+             {&pair, &contact_pair, &seen_pair, &ghost_velocity, &ghost_force, &target, &velocity, &rate, &stress,
+              &force, &change, &rate_change, &residual, &direction, &image, &bend})
+            total += field->bytes();
+        for (const Field<double> *field : {&pair_weight,
+                                           &contact_weight,
+                                           &seen_weight,
+                                           &regular,
+                                           &lxx,
+                                           &lxy,
+                                           &lyx,
+                                           &lyy,
+                                           &stiffness,
+                                           &mirror_share,
+                                           &pressure,
+                                           &ghost_normal,
+                                           &ghost_tangential,
+                                           &diagonal,
+                                           &hxx,
+                                           &hxy,
+                                           &hyy,
+                                           &viscosity,
+                                           &kxx,
+                                           &kxy,
+                                           &kyy,
+                                           &partial})
+            total += static_cast<int64_t>(field->capacity() * sizeof(double));
+        return total;
+    }
+};
+
+} // namespace gp

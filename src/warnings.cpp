@@ -1,0 +1,144 @@
+#include "warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error.hpp"
+#include "ledger.hpp"
+#include "stages/stages.hpp"
+
+namespace gp {
+
+namespace {
+
+// From here on a state is doubtful.
+constexpr double compression_limit = 0.03,
+                 good_compression = 0.01; // the scene's own sound speed is made for the latter
+constexpr double plate_share = 0.3;       // of the sound speed
+constexpr double least_layers = 3;        // of a column
+constexpr double penalty_share = 0.1;     // of the dissipation
+constexpr double error_share = 0.02;      // of the ledger's scale
+constexpr double passed_share = 0.05;     // dl behind a plate; on its line particles are while they collide
+
+// Steps between looks at what takes a pass over particles or contacts.
+constexpr int64_t interval = 64;
+
+// The largest energy that the ledger has dealt with, J/m.
+double ledger_scale(const Ledger &ledger) {
+    return std::max({std::abs(ledger.initial), ledger.largest_kinetic, ledger.dissipated, std::abs(ledger.plate_work)});
+}
+
+// A particle that has come behind the line of a plate that it sees; -1: none.
+const Contact *passed_contact(const World &world) {
+    const Particles &p = world.particles;
+    for (const Contact &contact : world.walls.contacts) {
+        const Plate &plate = world.walls.plates[contact.plate];
+        const Vector moved = world.clock.dt * plate.velocity();
+        const Vector at = world.walls.nearest_image(plate, {p.x[contact.particle], p.y[contact.particle]}) - moved;
+        const Segment &s = plate.segment();
+        if (s.distance(at) < -passed_share * world.constants.spacing && s.covers(s.along(at), 0))
+            return &contact;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+bool Warnings::is_new(Kind kind) {
+    const uint32_t bit = 1u << kind;
+    const bool fresh = !(told_ & bit);
+    told_ |= bit;
+    return fresh;
+}
+
+std::vector<std::string> Warnings::of_scene(const World &world) {
+    std::vector<std::string> texts;
+    const Constants &c = world.constants;
+    const gp_config &config = world.scene->config();
+    if (!is_new(scene) || world.particles.count == 0)
+        return texts;
+    if (c.sound_speed_is_arbitrary)
+        texts.push_back("sound_speed: nothing in the scene sets a speed, so 1 m/s is used");
+    if (c.sound_speed < c.flow_speed)
+        texts.push_back(format_text("gp_config.sound_speed = %g m/s: the scene can reach %g m/s; set 0 or about %g",
+                                    c.sound_speed, c.flow_speed, 10 * c.flow_speed));
+    for (std::size_t k = 0; k < world.scene->bodies().size(); ++k) {
+        const Body &body = world.scene->bodies()[k];
+        const double thinnest = std::min(body.width, body.height);
+        if (body.rectangle && thinnest < (least_layers - 0.5) * c.spacing && is_new(thin_column))
+            texts.push_back(
+                format_text("column %zu is %g m thin, less than %g spacings of %g m, too few for its stress: "
+                            "set gp_config.spacing to at most %g",
+                            k, thinnest, least_layers, c.spacing, thinnest / least_layers));
+    }
+    const double limit = stages::stable_dt(c);
+    if (config.time_step > limit)
+        texts.push_back(
+            format_text("gp_config.time_step = %g is beyond the stable limit of %g s", config.time_step, limit));
+    if (config.cfl * c.spacing / c.wave_speed > limit)
+        texts.push_back(format_text("gp_config.cfl = %g is beyond the stable limit of %g", config.cfl,
+                                    limit * c.wave_speed / c.spacing));
+    const int64_t wrong_side = world.walls.count_overlapping(world.particles, 0.25 * c.spacing);
+    if (wrong_side > 0)
+        texts.push_back(format_text("%lld particles begin within a quarter spacing of a plate's wetted line or just "
+                                    "behind it",
+                                    static_cast<long long>(wrong_side)));
+    return texts;
+}
+
+std::vector<std::string> Warnings::of_retry(const World &world, const char *error) {
+    if (!is_new(retried))
+        return {};
+    return {format_text("step %lld is taken anew in halves (gp_config.retry_halvings): %s",
+                        static_cast<long long>(world.clock.step), error)};
+}
+
+std::vector<std::string> Warnings::of_step(const World &world) {
+    std::vector<std::string> texts;
+    const Constants &c = world.constants;
+    const double time = world.clock.time;
+    // By number density the lattice beside a wall is compressed by 7 % as it stands.
+    if (!by_number_density(c.scheme) && world.max_compression > compression_limit && is_new(compressed))
+        texts.push_back(
+            format_text("compression of %g %% at time %g s: the sound speed of %g m/s is too low for what acts "
+                        "here; set gp_config.sound_speed to about %g",
+                        100 * world.max_compression, time, c.sound_speed,
+                        c.sound_speed * std::sqrt(world.max_compression / good_compression)));
+    for (std::size_t k = 0; k < world.walls.plates.size(); ++k) {
+        const Plate &plate = world.walls.plates[k];
+        const double speed = plate.velocity().norm();
+        if (plate.gap <= 0 && speed > plate_share * c.sound_speed && is_new(fast_plate))
+            texts.push_back(format_text("plate %zu moves at %g m/s at time %g s, %g of the sound speed: set "
+                                        "gp_config.sound_speed to about %g or drive it slower",
+                                        k, speed, time, speed / c.sound_speed, 10 * speed));
+    }
+    if (world.clock.step % interval != 0)
+        return texts;
+
+    if (const Contact *contact = passed_contact(world); contact && is_new(passed_plate)) {
+        const Particles &p = world.particles;
+        const int64_t i = contact->particle;
+        texts.push_back(
+            format_text("plate %d passes over particle %lld at (%g, %g) m, time %g s: drive the plate slower, "
+                        "or keep plates that meet a spacing apart",
+                        contact->plate, static_cast<long long>(p.id[i]), p.x[i], p.y[i], time));
+    }
+    if (by_number_density(c.scheme)) // the paper's schemes have no penalty, and lose energy by their nature
+        return texts;
+    const Ledger &ledger = world.ledger;
+    const double scale = ledger_scale(ledger);
+    if (ledger.dissipated > error_share * scale && ledger.penalty > penalty_share * ledger.dissipated &&
+        is_new(large_penalty))
+        texts.push_back(
+            format_text("the zero-energy penalty has taken %g %% of all that was dissipated by time %g s: set a "
+                        "smaller gp_config.zero_energy_penalty or spacing",
+                        100 * ledger.penalty / ledger.dissipated, time));
+    const double error = ledger.initial - (measure_energies(world).sum() + ledger.dissipated + ledger.plate_work);
+    if (std::abs(error) > error_share * scale && is_new(large_energy_error))
+        texts.push_back(format_text("the energy ledger is wrong by %g %% at time %g s: set a smaller gp_config.cfl or "
+                                    "time_step (the last step was %g s)",
+                                    100 * error / scale, time, world.clock.dt));
+    return texts;
+}
+
+} // namespace gp

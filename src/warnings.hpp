@@ -1,0 +1,35 @@
+// States that are doubtful but no errors, told to the host's log: each kind once, with its figure and with what to change.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "world.hpp"
+
+namespace gp {
+
+class Warnings {
+public:
+    // Texts that have not been told yet.
+    std::vector<std::string> of_scene(const World &world); // before the first step
+    std::vector<std::string> of_step(const World &world);  // after each
+    std::vector<std::string> of_retry(const World &world, const char *error);
+
+private:
+    enum Kind {
+        scene, // all of its own
+        thin_column,
+        retried,
+        compressed,
+        fast_plate,
+        passed_plate,
+        large_penalty,
+        large_energy_error
+    };
+    bool is_new(Kind kind); // and not any more
+
+    uint32_t told_ = 0; // bit per kind
+};
+
+} // namespace gp

@@ -1,0 +1,175 @@
+// Doubtful states are told to the log: once, with the figure and with what to change; sound ones are not.
+#include <functional>
+#include <stdexcept>
+
+#include "api_support.hpp"
+
+using namespace api;
+
+namespace {
+
+struct Log {
+    std::vector<std::string> warnings;
+    static void run(void *user, int32_t level, const char *text) {
+        if (level == GP_LOG_WARNING)
+            static_cast<Log *>(user)->warnings.emplace_back(text);
+    }
+    std::string all() const {
+        std::string text;
+        for (const std::string &line : warnings)
+            text += line + "\n";
+        return text;
+    }
+};
+
+// Runs the scene for a time; a warning with all these words has come exactly once.
+void expect_once(const gp_config &config, const std::function<void(Sim &)> &build, double time,
+                 const std::vector<std::string> &words) {
+    Sim sim(config);
+    Log log;
+    ASSERT_EQ(gp_set_log(sim, Log::run, &log), GP_OK);
+    build(sim);
+    EXPECT_TRUE(log.warnings.empty()) << log.all();
+    for (int k = 1; k <= 4; ++k)
+        ASSERT_EQ(gp_run(sim, time * k / 4), GP_OK) << gp_last_error();
+    int found = 0;
+    for (const std::string &line : log.warnings) {
+        bool has_all = true;
+        for (const std::string &word : words)
+            has_all = has_all && line.find(word) != std::string::npos;
+        found += has_all;
+    }
+    EXPECT_EQ(found, 1) << log.all();
+}
+
+} // namespace
+
+TEST(Warnings, AreNotGivenWithoutReason) {
+    for (const int32_t preset : {GP_PRESET_DEFAULT, GP_PRESET_PAPER, GP_PRESET_PAPER_LOCAL}) {
+        gp_config config;
+        ASSERT_EQ(gp_config_init(&config, sizeof config, preset), GP_OK);
+        config.spacing = spacing;
+        config.threads = 1;
+        Sim sim(config);
+        Log log;
+        ASSERT_EQ(gp_set_log(sim, Log::run, &log), GP_OK);
+        add_collapse(sim, 16, 12);
+        ASSERT_EQ(gp_run(sim, 0.3), GP_OK) << gp_last_error();
+        EXPECT_TRUE(log.warnings.empty()) << "preset " << preset << ": " << log.all();
+    }
+}
+
+TEST(Warnings, OfASoundSpeedBelowTheFlow) {
+    gp_config config = make_config();
+    config.sound_speed = 1; // of sqrt(2 g 0.1 m + (1 m/s of the gate)^2) = 1.72 m/s
+    expect_once(config, [](Sim &sim) { add_collapse(sim, 10, 10); }, 1e-3,
+                {"gp_config.sound_speed = 1", "1.72", "17.2"});
+}
+
+TEST(Warnings, OfAThinColumn) {
+    const auto build = [](int rows) {
+        return [rows](Sim &sim) {
+            sim.add(make_floor());
+            sim.add(make_column(10, rows));
+            sim.add(make_column(10, rows, 0.5));
+        };
+    };
+    expect_once(make_config(), build(2), 1e-3, {"column 0", "0.02", "3 spacings", "gp_config.spacing"});
+    Sim sim;
+    Log log;
+    ASSERT_EQ(gp_set_log(sim, Log::run, &log), GP_OK);
+    build(3)(sim);
+    ASSERT_EQ(gp_step(sim, 1), GP_OK);
+    EXPECT_TRUE(log.warnings.empty()) << log.all();
+}
+
+// A column at rest under its own weight that a sound speed a fifth of the own one compresses by 12.5 %.
+TEST(Warnings, OfCompression) {
+    gp_config config = make_config();
+    config.sound_speed = 2 * std::sqrt(2 * 9.81 * 10 * spacing);
+    const auto build = [](Sim &sim) {
+        sim.add(make_floor());
+        sim.add(make_left_wall(0, 0.2));
+        sim.add(make_right_wall(10 * spacing, 0.2));
+        sim.add(make_column(10, 10));
+    };
+    expect_once(config, build, 1e-2, {"compression of 11.", "sound speed of 2.8", "gp_config.sound_speed to about 9."});
+    Sim sim(config);
+    build(sim);
+    ASSERT_EQ(gp_step(sim, 20), GP_OK);
+    double densest = 0;
+    for (const double density : sim.field(GP_FIELD_DENSITY))
+        densest = std::max(densest, density / 1550 - 1);
+    EXPECT_GE(sim.state().max_compression, densest);
+    EXPECT_NEAR(sim.state().max_compression, 9.81 * 9.5 * spacing / (config.sound_speed * config.sound_speed), 0.005);
+}
+
+TEST(Warnings, OfAFastPlate) {
+    gp_config config = make_config();
+    config.sound_speed = 14;
+    expect_once(config,
+                [](Sim &sim) {
+                    sim.add(make_floor());
+                    sim.add(make_left_wall(0, 0.2));
+                    sim.add(make_column(10, 10));
+                    ASSERT_EQ(gp_set_plate_velocity(sim, 1, -5, 0), GP_OK); // away from it
+                },
+                1e-2, {"plate 1 moves at 5 m/s", "0.357", "gp_config.sound_speed to about 50"});
+}
+
+// A lid comes down on a floor, and a particle that has nowhere to go between them.
+TEST(Warnings, OfAPlateThatPassesParticles) {
+    expect_once(make_config(),
+                [](Sim &sim) {
+                    gp_plate lid = make_plate(-0.5, spacing, 0.5, spacing);
+                    lid.vy = -0.04;
+                    sim.add(make_floor());
+                    sim.add(lid);
+                    sim.add(make_column(1, 1));
+                },
+                0.24, {"plate 0 passes over particle 0", "slower"});
+}
+
+TEST(Warnings, OfThePenaltysShare) {
+    gp_config config = make_config();
+    config.zero_energy_penalty = 0.5;
+    expect_once(config, [](Sim &sim) { add_collapse(sim, 16, 12); }, 0.4,
+                {"penalty has taken", "%", "smaller gp_config.zero_energy_penalty"});
+}
+
+TEST(Warnings, OfTheEnergyError) {
+    gp_config config = make_config();
+    {
+        Sim sim(config);
+        add_collapse(sim, 16, 12);
+        config.time_step = 4 * sim.state().dt_limit;
+    }
+    config.allow_unstable_step = 1;
+    expect_once(config, [](Sim &sim) { add_collapse(sim, 16, 12); }, 0.25, {"energy ledger is wrong by", "time_step"});
+}
+
+// -------------------------------------------------------------------------------- hosts that throw through it
+
+// C++ hosts may let exceptions out of their callbacks: the call fails, and the simulation is as usable as before.
+TEST(Callbacks, ThatThrowLeaveTheSimulationUsable) {
+    Sim sim;
+    add_collapse(sim, 4, 4);
+    const auto throws = [](void *, gp_sim *) -> int32_t { throw std::runtime_error("the host's own"); };
+    ASSERT_EQ(gp_set_callback(sim, 1, throws, nullptr), GP_OK);
+    EXPECT_FAILS(gp_step(sim, 1), GP_E_INTERNAL, "the host's own");
+    EXPECT_EQ(sim.state().step, 1) << "the step is complete";
+    ASSERT_EQ(gp_set_callback(sim, 1, nullptr, nullptr), GP_OK) << gp_last_error();
+    EXPECT_EQ(gp_step(sim, 1), GP_OK) << gp_last_error();
+}
+
+TEST(Logs, ThatThrowLeaveTheSimulationUsable) {
+    gp_config config = make_config();
+    config.sound_speed = 1;
+    Sim sim(config);
+    add_collapse(sim, 10, 10);
+    const auto throws = [](void *, int32_t, const char *) { throw std::runtime_error("the host's own"); };
+    ASSERT_EQ(gp_set_log(sim, throws, nullptr), GP_OK);
+    EXPECT_FAILS(gp_step(sim, 1), GP_E_INTERNAL, "the host's own");
+    ASSERT_EQ(gp_set_log(sim, nullptr, nullptr), GP_OK);
+    EXPECT_EQ(gp_step(sim, 1), GP_OK) << gp_last_error();
+}
