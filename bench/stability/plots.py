@@ -74,16 +74,10 @@ def limits(path: Path, results: Collection) -> bool:
     if not schemes:
         return False
     figure, axes = plt.subplots(1, 4, figsize=(16, 4.6), layout="constrained", sharey=True)
-    axis_runs = [
-        ("L/dl", runs.LIMIT_RESOLUTIONS, lambda s, v: runs.limit(s, "collapse", resolution=v)),
-        ("c0 / automatic (L/dl = 16)", runs.LIMIT_SOUNDS, lambda s, v: runs.limit(s, "collapse", resolution=16, sound=v)),
-        ("horizon / dl", runs.LIMIT_HORIZONS, lambda s, v: runs.limit(s, "collapse", horizon=v)),
-        ("delta (1/s; L/dl = 16)", runs.LIMIT_DELTAS, lambda s, v: runs.limit(s, "collapse", resolution=16, delta=v)),
-    ]
     drawn = False
-    for ax, (name, values, run_of) in zip(axes, axis_runs):
+    for ax, axis in zip(axes, runs.AXES):
         for s in schemes:
-            found = [(v, results(run_of(s.key, v))) for v in values]
+            found = [(v, results(axis.run(s.key, v))) for v in axis.of(s)]
             found = [(v, result) for v, result in found if result]
             drawn = drawn or bool(found)
             for grade, line, filled in (("bounded", ":", "none"), ("stable", "-", COLORS[s.key])):
@@ -91,16 +85,16 @@ def limits(path: Path, results: Collection) -> bool:
                     [v for v, _ in found], [r.summary[grade] for _, r in found], color=COLORS[s.key], linestyle=line,
                     marker="o", mfc=filled, label=f"{s.label}: {'calm' if grade == 'stable' else 'makes no energy'} up to",
                 )  # fmt: skip
-        if name.startswith("horizon"):
-            h = np.linspace(min(values), max(values), 8)
+        if axis.values == runs.LIMIT_HORIZONS:
+            h = np.linspace(min(axis.values), max(axis.values), 8)
             ax.plot(h, [theory.default_surface(x) for x in h], color="black", lw=1.2, label="theory, free surface (default)")
             ax.plot(h, [theory.default_interior(x) for x in h], color="black", lw=1.2, ls=":", label="theory, inside (default)")
         else:
             ax.set_xscale("log")
-            ax.set_xticks(values, [f"{v:g}" for v in values])
+            ax.set_xticks(axis.values, [f"{v:g}" for v in axis.values])
             ax.minorticks_off()
         ax.axhline(1, color="0.7", lw=1, zorder=0)
-        ax.set_xlabel(name)
+        ax.set_xlabel(axis.name)
     axes[0].set_ylabel("largest dt × wave speed / dl")
     axes[0].set_ylim(bottom=0)
     legend_above(figure, axes[2], 4)
@@ -115,7 +109,7 @@ def creep(path: Path, results: Collection) -> bool:
         2, len(schemes), figsize=(5 * len(schemes), 8), layout="constrained", squeeze=False, sharey="row"
     )
     for column, s in zip(axes.T, schemes):
-        by_step = [(f"cfl {c:g}", runs.creep(s.key, cfl=c)) for c in runs.CREEP_CFLS[s.key]]
+        by_step = [(f"cfl {c:g}", runs.creep(s.key, cfl=c)) for c in s.cfls]
         by_delta = [(f"delta {d:g}", runs.creep(s.key, delta=d)) for d in s.deltas[1:]]
         for tried, color, line in ((by_step, COLORS[s.key], "-"), (by_delta, "#444444", "--")):
             for (label, run), shade in zip(tried, _shades(color, len(tried))):
@@ -138,14 +132,13 @@ def creep(path: Path, results: Collection) -> bool:
 def drift(path: Path, results: Collection) -> bool:
     figure, (left, right) = plt.subplots(1, 2, figsize=(14, 5.4), layout="constrained")
     drawn = False
-    for scheme, cfls in runs.DRIFT_CFLS.items():
-        s = runs.SCHEMES[scheme]
-        tried = [(f"{s.label}, cfl {c:g}", runs.drift(scheme, c)) for c in cfls]
+    for s in runs.SCHEMES.values():
+        tried = [(f"{s.label}, cfl {c:g}", runs.drift(s.key, c)) for c in s.drift_cfls]
         lines = ["-"] * len(tried)
-        if scheme == "default":
+        if s.key == "default":
             tried.append((f"{s.label}, cfl {s.own_cfl:g}, L/dl = 32", runs.drift_fine()))
             lines.append("--")
-        for (label, run), line, shade in zip(tried, lines, _shades(COLORS[scheme], len(tried))):
+        for (label, run), line, shade in zip(tried, lines, _shades(COLORS[s.key], len(tried))):
             result = results(run)
             if not result:
                 continue

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Callable
 
 from coefficients import COEFFICIENTS, FINE, NUMERICAL, Coefficient
 from run import Program, Run
@@ -34,24 +35,46 @@ class Scheme:
     wave_factor: float  # elastic wave speed over c0: what the time step is counted in
     own_cfl: float
     smallest: float  # dl / wave speed, of the reference in the search for the largest time step
-    deltas: tuple[float, ...]  # 1/s, tried for creep; the first is the scheme's own
+    cfls: tuple[float, ...]  # tried for creep,
+    drift_cfls: tuple[float, ...]  # and for drift at rest
+    deltas: tuple[float, ...]  # 1/s, tried for creep; the first is that of all other runs
+    limit_deltas: tuple[float, ...]
+    limit_resolutions: tuple[int, ...] = (16, 32, 64)
+    limit_sounds: tuple[float, ...] = (0.5, 1, 2, 5)
+    drift_end: float = 15.0  # s
+    preset_delta: float = 1e-6  # 1/s
+    resolution: int = 32  # L/dl, but for the axis of resolutions
     cost: float = 1.0  # of a particle-step, in that of the default scheme
     force_states: bool = True  # the horizon is that of its operators; else the interaction radius
+    explicit_viscosity: bool = False  # the regularised one of the paper
 
     @property
     def reach_option(self) -> str:
-        return "--horizon" if self.force_states else "--interaction-radius"
+        return "horizon" if self.force_states else "interaction_radius"
+
+    @property
+    def delta_option(self) -> float | None:
+        return None if self.deltas[0] == self.preset_delta else self.deltas[0]
 
 
+PAPER_CFLS = {"cfls": (0.1, 0.2, 0.4, 0.8), "drift_cfls": (0.2, 0.8), "explicit_viscosity": True}
+PAPER_DELTAS = {"deltas": (1e-6, 1e-2, 1.0, 10.0), "limit_deltas": (1e-6, 1e-4, 1e-2)}
 SCHEMES = {
     scheme.key: scheme
     for scheme in (
-        Scheme("default", "default", math.sqrt(1.3), 0.8, 0.4, (1e-6, 1e-2)),
-        Scheme("paper", "paper, non-local", 1.0, 0.2, 0.2, (1e-6, 1e-2, 1.0, 10.0)),
-        Scheme("local", "paper, local", 1.0, 0.2, 0.2, (1e-6, 1e-2, 1.0, 10.0), force_states=False),
-        Scheme("implicit", "implicit", 1.0, 0.8, 0.4, (1e-6, 1e-2, 1e-4, 1e-8, 1e-12), cost=10.0),
+        Scheme(
+            "default", "default", math.sqrt(1.3), 0.8, 0.4, (0.2, 0.4, 0.8), (0.2, 0.4, 0.8, 1.0), (1e-6, 1e-2),
+            (1e-6, 1e-2), drift_end=60.0,
+        ),
+        Scheme("paper", "paper, non-local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS),
+        Scheme("local", "paper, local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS, force_states=False),
+        # A step costs the more the smaller delta: coarse, and with a delta at which creep is small already.
+        Scheme(
+            "implicit", "implicit", 1.0, 0.8, 0.4, (0.4, 0.8), (0.8,), (1e-2, 1.0, 1e-1, 1e-3, 1e-4, 1e-6),
+            (1e-2, 1e-1), limit_resolutions=(16,), limit_sounds=(0.5, 1, 2), resolution=16, cost=8.0,
+        ),
     )
-}
+}  # fmt: skip
 
 
 def cost_of(
@@ -90,11 +113,8 @@ def collapse(scheme: str, resolution: int, end: float, long: bool = False, **mor
 
 # ---------------------------------------------------------------------------------------- largest time step
 
-LIMIT_END = 0.6  # s: a collapse has come to rest by then
-LIMIT_SOUNDS = (0.5, 1, 2, 5)
-LIMIT_RESOLUTIONS = (16, 32, 64)
+LIMIT_END, LAYER_END = 0.6, 0.3  # s: a collapse has come to rest by then, and the jitter of a layer died down
 LIMIT_HORIZONS = (2.2, 3, 4, 5)
-LIMIT_DELTAS = (1e-6, 1e-4, 1e-2)
 # Of the default scheme's layer beside the horizons: bulk_viscosity and zero_energy_penalty, which count in the theory.
 LIMIT_DAMPING = ((0.0, 0.02), (1.0, 0.02), (0.2, 0.0), (0.2, 0.5))
 
@@ -102,44 +122,62 @@ LIMIT_DAMPING = ((0.0, 0.02), (1.0, 0.02), (0.2, 0.0), (0.2, 0.5))
 def limit(
     scheme: str,
     scene: str,
-    resolution: int = 32,
+    resolution: int | None = None,
     sound: float = 1,
     horizon: float = 4,
-    delta: float = 1e-6,
+    delta: float | None = None,
     damping: tuple[float, float] | None = None,
 ) -> Run:
     """The search for the largest stable time step. The collapse's particles are jittered as little as an ensemble's."""
     s = SCHEMES[scheme]
+    resolution = resolution or s.resolution
     layer = scene == "layer"
-    end = 0.3 if layer else LIMIT_END
+    seeds = 1 if layer or resolution == 64 or s.cost > 1 else 2
     options = _options(
         resolution=resolution,
         sound_factor=None if sound == 1 else sound,
-        **{s.reach_option[2:].replace("-", "_"): None if horizon == 4 else horizon},
-        delta=None if delta == 1e-6 else delta,
+        **{s.reach_option: None if horizon == 4 else horizon},
+        delta=s.delta_option if delta in (None, s.deltas[0]) else delta,
         bulk_viscosity=damping[0] if damping else None,
         penalty=damping[1] if damping else None,
-        seeds=None if layer or resolution == 64 else 2,
+        seeds=None if seeds == 1 else seeds,
     )
+    end = LAYER_END if layer else LIMIT_END
     arguments = (
         f"limit_{scene}", "--scheme", scheme, "--end", f"{end:g}", "--jitter", "0.05" if layer else "0.01",
         "--smallest", f"{s.smallest:g}", *options,
     )  # fmt: skip
     # Reference, ladder and bisections: as much as some runs with the smallest step.
     width = 20 / resolution if layer else 1
-    seeds = 1 if layer or resolution == 64 else 2
     cost = (9 if layer else 4) * seeds * width * cost_of(s, resolution, end, s.smallest, sound, horizon)
     return Run(_name("limit", scene, scheme, options=options), "stability", arguments, cost)
 
 
+@dataclass(frozen=True)
+class Axis:
+    """Of the map of largest time steps. Coarse where only the axis counts and fine would be dear."""
+
+    name: str
+    values: tuple[float, ...]
+    of: Callable[[Scheme], tuple[float, ...]]  # the values of a scheme
+    run: Callable[[str, float], Run]
+
+
+AXES = (
+    Axis("L/dl", (16, 32, 64), lambda s: s.limit_resolutions, lambda s, v: limit(s, "collapse", resolution=int(v))),
+    Axis("c0 / automatic (L/dl = 16)", (0.5, 1, 2, 5), lambda s: s.limit_sounds, lambda s, v: limit(s, "collapse", resolution=16, sound=v)),
+    Axis("horizon / dl", LIMIT_HORIZONS, lambda s: LIMIT_HORIZONS, lambda s, v: limit(s, "collapse", horizon=v)),
+    Axis("delta (1/s; L/dl = 16)", (1e-6, 1e-4, 1e-2, 1e-1), lambda s: s.limit_deltas, lambda s, v: limit(s, "collapse", resolution=16, delta=v)),
+)
+
+
 def limits_of(scheme: str) -> list[Run]:
-    """Along each axis through the scheme's own values. Coarse where only the axis counts and fine would be dear."""
+    """Along each axis through the scheme's own values."""
+    s = SCHEMES[scheme]
     found = [limit(scheme, scene) for scene in ("collapse", "layer")]
-    found += [limit(scheme, "collapse", resolution=r) for r in LIMIT_RESOLUTIONS]
-    found += [limit(scheme, "collapse", resolution=16, sound=x) for x in LIMIT_SOUNDS]
-    found += [limit(scheme, "collapse", resolution=16, delta=d) for d in LIMIT_DELTAS]
-    for h in LIMIT_HORIZONS:
-        found += [limit(scheme, "collapse", horizon=h), limit(scheme, "layer", horizon=h)]
+    for axis in AXES:
+        found += [axis.run(scheme, value) for value in axis.of(s)]
+    found += [limit(scheme, "layer", horizon=h) for h in LIMIT_HORIZONS]
     if scheme == "default":
         found += [limit(scheme, "layer", damping=d) for d in LIMIT_DAMPING]
     return found
@@ -148,11 +186,7 @@ def limits_of(scheme: str) -> list[Run]:
 # --------------------------------------------------------------------------------------------- creep, drift
 
 CREEP_END = 3.0  # s
-CREEP_CFLS = {"default": (0.2, 0.4, 0.8), "paper": (0.1, 0.2, 0.4, 0.8), "local": (0.1, 0.2, 0.4, 0.8)}
-CREEP_CFLS["implicit"] = (0.4, 0.8)
-DRIFT_CFLS = {"default": (0.2, 0.4, 0.8, 1.0), "paper": (0.2, 0.8), "local": (0.2, 0.8), "implicit": (0.8,)}
 DRIFT_FROM = 3.0  # s
-DRIFT_ENDS = {"default": 60.0, "paper": 15.0, "local": 15.0, "implicit": 15.0}
 
 
 def creep(scheme: str, cfl: float | None = None, delta: float | None = None) -> Run:
@@ -160,10 +194,10 @@ def creep(scheme: str, cfl: float | None = None, delta: float | None = None) -> 
     s = SCHEMES[scheme]
     return collapse(
         scheme,
-        32,
+        s.resolution,
         CREEP_END,
         cfl=None if cfl == s.own_cfl else cfl,
-        delta=None if delta == s.deltas[0] else delta,
+        delta=s.delta_option if delta in (None, s.deltas[0]) else delta,
         rough=1,
     )
 
@@ -173,8 +207,9 @@ def drift(scheme: str, cfl: float, resolution: int = 16) -> Run:
     return collapse(
         scheme,
         resolution,
-        DRIFT_ENDS[scheme],
+        s.drift_end,
         cfl=None if cfl == s.own_cfl else cfl,
+        delta=s.delta_option,
         drift_from=DRIFT_FROM,
         interval=0.1,
     )
@@ -182,7 +217,7 @@ def drift(scheme: str, cfl: float, resolution: int = 16) -> Run:
 
 def motion_of(scheme: str) -> list[Run]:
     s = SCHEMES[scheme]
-    return [creep(scheme, cfl=c) for c in CREEP_CFLS[scheme]] + [creep(scheme, delta=d) for d in s.deltas]
+    return [creep(scheme, cfl=c) for c in s.cfls] + [creep(scheme, delta=d) for d in s.deltas]
 
 
 # ---------------------------------------------------------------------------------- pressure, zero-energy modes
@@ -298,7 +333,7 @@ def studies() -> dict[str, list[Run]]:
     return {
         "limits": [run for scheme in SCHEMES for run in limits_of(scheme)],
         "creep": [run for scheme in SCHEMES for run in motion_of(scheme)],
-        "drift": [drift(scheme, cfl) for scheme, cfls in DRIFT_CFLS.items() for cfl in cfls] + [drift_fine()],
+        "drift": [drift(s.key, cfl) for s in SCHEMES.values() for cfl in s.drift_cfls] + [drift_fine()],
         "roughness": [rough_horizon(h) for h in ROUGH_HORIZONS] + [undamped(name) for name in UNDAMPED],
         "modes": [mode(pattern, penalty) for pattern in MODES for penalty in PENALTIES],
         "sensitivity": sensitivity(),

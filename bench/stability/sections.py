@@ -139,27 +139,13 @@ def _grades(result: Result | None) -> list[str]:
 
 def limits(results: Collection) -> str:
     """Along each axis, all schemes."""
-    axes = [
-        ("L/dl", 16, [(r, lambda s, r=r: runs.limit(s, "collapse", resolution=r)) for r in runs.LIMIT_RESOLUTIONS]),
-        (
-            "c0 / automatic (L/dl = 16)", 16,
-            [(x, lambda s, x=x: runs.limit(s, "collapse", resolution=16, sound=x)) for x in runs.LIMIT_SOUNDS],
-        ),
-        ("horizon / dl", 32, [(h, lambda s, h=h: runs.limit(s, "collapse", horizon=h)) for h in runs.LIMIT_HORIZONS]),
-        (
-            "delta, 1/s (L/dl = 16)", 16,
-            [(d, lambda s, d=d: runs.limit(s, "collapse", resolution=16, delta=d)) for d in runs.LIMIT_DELTAS],
-        ),
-    ]  # fmt: skip
     schemes = present(results)
     rows = []
-    for axis, _, values in axes:
-        for k, (value, run_of) in enumerate(values):
-            row = [axis if k == 0 else "", f"{value:g}"]
-            for s in schemes:
-                row.append(" / ".join(_grades(results(run_of(s.key)))))
-            rows.append(row)
-    return table(["axis", "value", *(s.label for s in schemes)], rows)
+    for axis in runs.AXES:
+        for k, value in enumerate(axis.values):
+            found = [results(axis.run(s.key, value)) if value in axis.of(s) else None for s in schemes]
+            rows.append([axis.name if k == 0 else "", f"{value:g}", *(" / ".join(_grades(result)) for result in found)])
+    return table(["axis", "value", *(f"{s.label}, L/dl = {s.resolution}" for s in schemes)], rows)
 
 
 def theory_of_layer(results: Collection) -> str:
@@ -181,7 +167,7 @@ def theory_of_layer(results: Collection) -> str:
 def theory_of_paper(results: Collection) -> str:
     rows = []
     for s in present(results):
-        if s.key == "default":
+        if not s.explicit_viscosity:
             continue
         for h in runs.LIMIT_HORIZONS:
             result = results(runs.limit(s.key, "layer", horizon=h))
@@ -197,20 +183,21 @@ def theory_of_paper(results: Collection) -> str:
 def creep(results: Collection) -> str:
     rows = []
     for s in present(results):
-        tried = [(c, s.deltas[0], runs.creep(s.key, cfl=c)) for c in runs.CREEP_CFLS[s.key]]
+        tried = [(c, s.deltas[0], runs.creep(s.key, cfl=c)) for c in s.cfls]
         tried += [(s.own_cfl, d, runs.creep(s.key, delta=d)) for d in s.deltas[1:]]
         for cfl, delta, run in tried:
             result = results(run)
             if not result:
                 continue
-            dt = cfl * runs.WIDTH / 32 / (s.wave_factor * result.summary["sound_speed"])
-            # Half-way down the deposit, where the friction of the preset counts twice in the non-local one.
-            effective = theory.effective_delta(math.tan(math.radians(21)), runs.GRAVITY, runs.HEIGHT / 4, runs.WIDTH / 32, dt)
+            spacing = runs.WIDTH / s.resolution
+            dt = cfl * spacing / (s.wave_factor * result.summary["sound_speed"])
+            effective = theory.effective_delta(math.tan(math.radians(21)), runs.GRAVITY, runs.HEIGHT / 4, spacing, dt)
             peaks = [result.at("peak_height", t) / runs.WIDTH for t in (runs.ARREST, 1, 3)]
             speed = root_mean_square(between(result, "rms_speed", 1, 3)) / math.sqrt(runs.GRAVITY * 0.002)
             rows.append(
                 [
-                    s.label, f"{cfl:g}", f"{delta:g}", "" if s.key == "default" else significant(effective, 2),
+                    f"{s.label}, L/dl = {s.resolution}", f"{cfl:g}", f"{delta:g}",
+                    significant(effective, 2) if s.explicit_viscosity else "",
                     *(fixed(p) for p in peaks), f"{signed(100 * (peaks[2] / peaks[0] - 1), 2)} %",
                     significant(speed, 2), f"{100 * abs(result.at('error_share', 3)):.1f} %", cpu(result.cpu),
                 ]
@@ -224,16 +211,15 @@ def creep(results: Collection) -> str:
 
 def drift(results: Collection) -> str:
     rows = []
-    for scheme, cfls in runs.DRIFT_CFLS.items():
-        s = runs.SCHEMES[scheme]
-        tried = [(16, c, runs.drift(scheme, c)) for c in cfls]
-        if scheme == "default":
+    for s in runs.SCHEMES.values():
+        tried = [(16, c, runs.drift(s.key, c)) for c in s.drift_cfls]
+        if s.key == "default":
             tried.append((32, s.own_cfl, runs.drift_fine()))
         for resolution, cfl, run in tried:
             result = results(run)
             if not result:
                 continue
-            end = runs.DRIFT_ENDS[scheme]
+            end = s.drift_end
             series = result.tables["series"]
             late = between(result, "drift", 10, end)
             rows.append(
@@ -257,7 +243,7 @@ FLOW, REST = (0.05, 0.25), (0.6, 1.0)  # s
 
 
 def pressure_rows(results: Collection) -> list[tuple[str, Result]]:
-    tried = [(s.label, runs.creep(s.key)) for s in present(results)]
+    tried = [(f"{s.label}, L/dl = {s.resolution}", runs.creep(s.key)) for s in present(results)]
     tried += [(f"default, horizon {h:g} dl", runs.rough_horizon(h)) for h in runs.ROUGH_HORIZONS]
     tried += [(f"default, no {name}", runs.undamped(name)) for name in runs.UNDAMPED]
     return [(label, result) for label, run in tried if (result := results(run))]

@@ -77,7 +77,7 @@ def in_short(results: Collection) -> list[str]:
         if result:
             lines.append(
                 f"At rest, {runs.SCHEMES[scheme].label} scheme, L/dl = {resolution}: from {runs.DRIFT_FROM:g} to "
-                f"{runs.DRIFT_ENDS[scheme]:g} s no particle moves by more than "
+                f"{runs.SCHEMES[scheme].drift_end:g} s no particle moves by more than "
                 f"{significant(result.tables['series']['drift'][-1], 2)} dl ({result.cpu:.0f} CPU s)."
             )
     return lines
