@@ -153,8 +153,11 @@ def drift(path: Path, results: Collection) -> bool:
         ax.set_yscale("log")
         ax.set_xscale("log")
         ax.set_xlabel("t (s)")
-    right.set_xlim(0.1, 60)
-    left.set_xlim(3, 60)
+    for ax, first in ((right, 0.1), (left, 3)):
+        ax.set_xlim(first, 60)
+        ticks = [t for t in (0.1, 0.3, 1, 3, 10, 30, 60) if t >= first]
+        ax.set_xticks(ticks, [f"{t:g}" for t in ticks])
+        ax.minorticks_off()
     legend_above(figure, left, 3)
     return drawn and finish(figure, path)
 
@@ -173,6 +176,7 @@ def pressure(path: Path, results: Collection) -> bool:
     left.set_ylabel("highest p / (ρ g H)")
     right.set_ylabel("rms departure of p from its\nneighbours' plane / (ρ g H)")
     right.set_yscale("log")
+    right.set_ylim(3e-3, 1)
     for ax in (left, right):
         ax.set_xlim(0, 1)
         ax.set_xlabel("t (s)")

@@ -39,11 +39,12 @@ class Scheme:
     drift_cfls: tuple[float, ...]  # and for drift at rest
     deltas: tuple[float, ...]  # 1/s, tried for creep; the first is that of all other runs
     limit_deltas: tuple[float, ...]
-    limit_resolutions: tuple[int, ...] = (16, 32, 64)
+    limit_resolutions: tuple[int, ...] = (16, 32)
+    limit_resolution: int = 16  # of the axis of horizons and of the layer
     limit_sounds: tuple[float, ...] = (0.5, 1, 2, 5)
     drift_end: float = 15.0  # s
     preset_delta: float = 1e-6  # 1/s
-    resolution: int = 32  # L/dl, but for the axis of resolutions
+    resolution: int = 32  # L/dl, of creep
     cost: float = 1.0  # of a particle-step, in that of the default scheme
     force_states: bool = True  # the horizon is that of its operators; else the interaction radius
     explicit_viscosity: bool = False  # the regularised one of the paper
@@ -64,7 +65,7 @@ SCHEMES = {
     for scheme in (
         Scheme(
             "default", "default", math.sqrt(1.3), 0.8, 0.4, (0.2, 0.4, 0.8), (0.2, 0.4, 0.8, 1.0), (1e-6, 1e-2),
-            (1e-6, 1e-2), drift_end=60.0,
+            (1e-6, 1e-2), limit_resolutions=(16, 32, 64), limit_resolution=32, drift_end=60.0,
         ),
         Scheme("paper", "paper, non-local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS),
         Scheme("local", "paper, local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS, force_states=False),
@@ -130,7 +131,7 @@ def limit(
 ) -> Run:
     """The search for the largest stable time step. The collapse's particles are jittered as little as an ensemble's."""
     s = SCHEMES[scheme]
-    resolution = resolution or s.resolution
+    resolution = resolution or s.limit_resolution
     layer = scene == "layer"
     seeds = 1 if layer or resolution == 64 or s.cost > 1 else 2
     options = _options(

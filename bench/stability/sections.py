@@ -145,7 +145,7 @@ def limits(results: Collection) -> str:
         for k, value in enumerate(axis.values):
             found = [results(axis.run(s.key, value)) if value in axis.of(s) else None for s in schemes]
             rows.append([axis.name if k == 0 else "", f"{value:g}", *(" / ".join(_grades(result)) for result in found)])
-    return table(["axis", "value", *(f"{s.label}, L/dl = {s.resolution}" for s in schemes)], rows)
+    return table(["axis", "value", *(f"{s.label}, L/dl = {s.limit_resolution}" for s in schemes)], rows)
 
 
 def theory_of_layer(results: Collection) -> str:
@@ -173,7 +173,7 @@ def theory_of_paper(results: Collection) -> str:
             result = results(runs.limit(s.key, "layer", horizon=h))
             sound = theory.number_density_interior(h if s.force_states else 4, 4 if s.force_states else h, s.force_states)
             _, calm, bounded = _grades(result)
-            rows.append([f"{s.label}, {h:g} dl", f"{sound:.2f}", calm, bounded])
+            rows.append([f"{s.label}, {h:g} dl, L/dl = {s.limit_resolution}", f"{sound:.2f}", calm, bounded])
     return table(["scheme, radius", "theory, sound alone", "calm to", "no energy made to"], rows)
 
 
