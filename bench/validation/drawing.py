@@ -1,17 +1,11 @@
-"""How the figures of docs/validation.md look: colours, lines, sizes, legends."""
+"""Colours, lines and markers of the schemes in the figures of docs/validation.md."""
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Callable, Iterable
-
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-from matplotlib.axes import Axes
 
 import runs
 from results import Collection, Result
+from run import Run
 
 STYLES = {  # colour (readable with colour blindness), line
     "default": ("#0072B2", "-"),
@@ -32,39 +26,13 @@ MARKERS = {
     "local_2": ">",
 }
 
-plt.rcParams.update(
-    {
-        "font.size": 14,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "legend.frameon": False,
-        "lines.linewidth": 2.0,
-        "axes.labelsize": 15,
-        "legend.fontsize": 12.5,
-        "figure.dpi": 100,
-    }
-)
-
-
 Available = list[tuple[str, Result]]
 
 
-def available(results: Collection, run_of: Callable[[str], runs.Run], schemes: Iterable[str]) -> Available:
+def available(results: Collection, run_of: Callable[[str], Run], schemes: Iterable[str]) -> Available:
     """The schemes that have a result."""
     pairs = ((key, results(run_of(key))) for key in schemes)
     return [(key, result) for key, result in pairs if result is not None]
-
-
-def finish(figure: plt.Figure, path: Path) -> bool:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, bbox_inches="tight", pad_inches=0.12)
-    plt.close(figure)
-    return True
-
-
-def legend_above(figure: plt.Figure, axes: Axes, columns: int) -> None:
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=columns)
 
 
 def label_of(scheme: str) -> str:

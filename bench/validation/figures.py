@@ -1,14 +1,11 @@
 """All figures of docs/validation.md by name."""
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Callable
-
 import paper_figures
 import physics_figures
-from results import Collection
+from plotting import Figures
 
-FIGURES: dict[str, Callable[[Path, Collection], bool]] = {
+FIGURES: Figures = {
     "both_side": paper_figures.both_side,
     "peak_in_time": paper_figures.peak_in_time,
     "resolution": paper_figures.resolution,
@@ -26,14 +23,3 @@ FIGURES: dict[str, Callable[[Path, Collection], bool]] = {
     "exact": physics_figures.exact,
 }
 
-
-def draw_all(directory: Path, results: Collection) -> set[str]:
-    """Names of the figures that were drawn; files of those that were not are removed."""
-    drawn = set()
-    for name, draw in FIGURES.items():
-        path = directory / f"validation_{name}.png"
-        if draw(path, results):
-            drawn.add(name)
-        else:
-            path.unlink(missing_ok=True)
-    return drawn

@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 
 import references as ref
 import runs
-from drawing import MARKERS, STYLES, Available, available, finish, label_of, legend_above
+from drawing import MARKERS, STYLES, Available, available, label_of
 from measures import peak, run_out_at
+from plotting import finish, legend_above
 from results import Collection
 
 INTERFACE_JUMP = 0.006  # m: where the interface moves further from one row to the next it is not drawn

@@ -18,10 +18,6 @@ OTHER_FITS = [(0.0, 1.0), (0.0, 0.8), (0.1, 0.6), (0.1, 0.8), (0.2, 0.5), (0.2, 
 SPEED_RATIOS = (("local_1", "nonlocal_2"), ("local_1", "nonlocal_1"), ("local_2", "nonlocal_2"))
 
 
-def figure(name: str, drawn: set[str], caption: str) -> str:
-    return f"![{caption}](images/validation_{name}.png)\n\n*{caption}*" if name in drawn else ""
-
-
 def label(scheme: str) -> str:
     return runs.SCHEMES[scheme].label
 

@@ -8,8 +8,9 @@ import numpy as np
 
 import references as ref
 import runs
-from drawing import MARKERS, STYLES, finish, label_of, legend_above
+from drawing import MARKERS, STYLES, label_of
 from measures import contact_front, couette_profile, exact_error, peak
+from plotting import finish, legend_above
 from results import Collection
 
 

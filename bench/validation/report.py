@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import argparse
+import functools
+import sys
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+
+import document
 import figures
 import paper_sections as paper
 import physics_sections as physics
 import references as ref
-import results
 import runs
 import verdicts
-from paper_sections import figure
+from document import bullets, missing_runs, provenance, tidy
+from plotting import draw_all
 from results import Collection
+from run import ROOT
 
 SCALING_SOURCES = (
     "Lube et al. (2005) and Lajeunesse et al. (2005) are experiments in channels, Staron & Hinch (2005) contact "
@@ -26,27 +32,7 @@ RUN_TIME_CAPTION = (
 )
 PEAK_CAPTION = "Highest point against time. Above: the schemes; below: horizons, the paper's figure 4"
 
-
-def provenance(collection: Collection) -> str:
-    found = collection.found.values()
-    total = sum(result.cpu for result in found)
-    commits = sorted({result.commit for result in found if result.commit})
-    sources: dict[str, set[str]] = {}
-    for result in found:
-        sources.setdefault(result.program, set()).add(result.source)
-    states = max((len(of_program) for of_program in sources.values()), default=0)
-    text = (
-        f"{len(collection.found)} runs, {total / 60:.0f} CPU minutes in all, one thread each; sources at "
-        f"commit {', '.join(commits) or 'unknown'}."
-    )
-    if states > 1:
-        text += (
-            f" **The results come from {states} states of the sources**: run `scripts/validate` again for one "
-            "state."
-        )
-    if collection.absent:
-        text += f" {len(collection.absent)} runs are missing: they are listed at the end, and their places hold a dash."
-    return text
+figure = functools.partial(document.figure, "validation")
 
 
 def compose(collection: Collection, drawn: set[str]) -> str:
@@ -203,7 +189,7 @@ The column of a = 1.25, gates gone at once, with public codes at the same μ(I).
 
 Made by `scripts/validate` ([bench/validation](../bench/validation)); `scripts/validate --report-only` writes it anew
 from the results in `results/validation`. Every number is measured by a run or cited from
-[references.py](../bench/validation/references.py). {provenance(collection)}
+[references.py](../bench/validation/references.py). {provenance(collection, "scripts/validate")}
 
 {bullets(short)}
 
@@ -211,37 +197,15 @@ from the results in `results/validation`. Every number is measured by a run or c
     return tidy(head + body + missing_runs(collection))
 
 
-def missing_runs(collection: Collection) -> str:
-    if not collection.absent:
-        return ""
-    reasons: dict[str, list[str]] = {}
-    for name, why in collection.absent.items():
-        reasons.setdefault(why, []).append(name)
-    return (
-        "\n## Missing runs\n\n" + bullets(f"{why}: {', '.join(sorted(names))}" for why, names in reasons.items()) + "\n"
-    )
-
-
-def bullets(lines) -> str:
-    return "\n".join(f"- {line}" for line in lines)
-
-
-def tidy(text: str) -> str:
-    """One empty line where a figure is missing."""
-    while "\n\n\n" in text:
-        text = text.replace("\n\n\n", "\n\n")
-    return text.rstrip() + "\n"
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument(
-        "--results", type=Path, default=results.DIRECTORY, help="where the results are [results/validation]"
+        "--results", type=Path, default=ROOT / "results" / "validation", help="where the results are [results/validation]"
     )
-    parser.add_argument("--docs", type=Path, default=results.ROOT / "docs", help="where validation.md goes [docs]")
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where validation.md goes [docs]")
     arguments = parser.parse_args()
     collection = Collection(arguments.results)
-    drawn = figures.draw_all(arguments.docs / "images", collection)
+    drawn = draw_all(figures.FIGURES, arguments.docs / "images", "validation", collection)
     for run in runs.all_runs():
         collection(run)
     report = arguments.docs / "validation.md"

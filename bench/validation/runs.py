@@ -1,13 +1,11 @@
-"""The runs that docs/validation.md is made of: which program with which options, for which study.
-
-A run is known by its name, and two studies that ask for the same run share it.
-"""
+"""The runs that docs/validation.md is made of: which program with which options, for which study."""
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
 import references as ref
+from run import Program, Run, cheapest_first
 
 # Side walls. What counts is channel_friction / channel_width. The paper does not give the width of its channel, so the study
 # SIDE_WALLS varies the ratio. "walls" is a channel ten grains wide whose walls have the friction of glass on Plexiglas,
@@ -21,20 +19,15 @@ GRAVITY = 9.81  # m/s2
 # Particle-steps per CPU second of one core, for the estimates of the remaining time only.
 TYPICAL_RATE = 1.0e6
 
-
-@dataclass(frozen=True)
-class Run:
-    """One call of one program."""
-
-    name: str
-    program: str  # "scene", "couette" or "exact"
-    arguments: tuple[str, ...]
-    cost: float  # CPU s, estimated
-
-    @property
-    def records(self) -> bool:
-        """Whether it writes tables beside its summary."""
-        return self.program == "scene"
+PROGRAMS = {
+    "scene": Program(
+        "bench/scene",
+        ("bench/scene.c", "bench/options.[ch]", "bench/record.[ch]", "examples/c/example.[ch]"),
+        records=True,
+    ),
+    "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
+    "exact": Program("bench/exact", ("bench/exact.c",), refuses=True),
+}
 
 
 @dataclass(frozen=True)
@@ -373,13 +366,4 @@ def studies() -> dict[str, list[Run]]:
 
 def all_runs() -> list[Run]:
     """Every run once, cheapest first."""
-    unique = {run.name: run for runs in studies().values() for run in runs}
-    return sorted(unique.values(), key=lambda run: (run.cost, run.name))
-
-
-if __name__ == "__main__":
-    for one in all_runs():
-        print(f"{one.cost:7.1f} CPU s  {one.name:50} {one.program} {' '.join(one.arguments)}")
-    print(f"{len(all_runs())} runs, {sum(one.cost for one in all_runs()) / 60:.0f} CPU min")
-    for study, members in studies().items():
-        print(f"  {study:18} {sum(one.cost for one in members) / 60:5.1f} CPU min (shared ones included)")
+    return cheapest_first(studies())

@@ -15,6 +15,8 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
+sys.path.append(str(HERE.parent / "common"))
+
 import measures
 import results
 import runs

@@ -9,12 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from runs import Run
+from run import Run
 
-ROOT = Path(__file__).resolve().parents[2]
-DIRECTORY = ROOT / "results" / "validation"
 FORMAT = 3  # of the files: those of another one are as if they were not there
-TABLES = ("series", "surface", "section", "interface")
 
 
 class Result:
@@ -80,17 +77,17 @@ class Result:
         return math.degrees(math.atan(np.polyfit(rows["y"][inside], rows["x"][inside], 1)[0]))
 
 
-def path_of(run: Run, directory: Path = DIRECTORY) -> Path:
+def path_of(run: Run, directory: Path) -> Path:
     return directory / f"{run.name}.json"
 
 
-def load(run: Run, directory: Path = DIRECTORY) -> Result | None:
+def load(run: Run, directory: Path) -> Result | None:
     """The result of a run; None if it is not there or did not go well."""
     data = load_raw(run, directory)
     return Result(data) if data and data["status"] == "ok" else None
 
 
-def load_raw(run: Run, directory: Path = DIRECTORY) -> dict[str, Any] | None:
+def load_raw(run: Run, directory: Path) -> dict[str, Any] | None:
     path = path_of(run, directory)
     if not path.exists():
         return None
@@ -98,7 +95,7 @@ def load_raw(run: Run, directory: Path = DIRECTORY) -> dict[str, Any] | None:
     return data if data.get("format") == FORMAT else None
 
 
-def save(run: Run, data: dict[str, Any], directory: Path = DIRECTORY) -> None:
+def save(run: Run, data: dict[str, Any], directory: Path) -> None:
     """Under another name first: a file that exists is whole."""
     directory.mkdir(parents=True, exist_ok=True)
     path = path_of(run, directory)
@@ -122,12 +119,10 @@ def read_summary(text: str) -> dict[str, float]:
 
 
 def read_tables(prefix: Path) -> dict[str, dict[str, list[float]]]:
-    """The tables that a scene wrote, by name and column."""
+    """The tables that a program wrote as prefix.name.csv, by name and column."""
     tables = {}
-    for name in TABLES:
-        path = prefix.with_name(f"{prefix.name}.{name}.csv")
-        if not path.exists():
-            continue
+    for path in sorted(prefix.parent.glob(f"{prefix.name}.*.csv")):
+        name = path.name[len(prefix.name) + 1 : -len(".csv")]
         with path.open(encoding="utf-8", newline="") as lines:
             rows = list(csv.reader(lines))
         header, body = rows[0], rows[1:]
@@ -138,7 +133,7 @@ def read_tables(prefix: Path) -> dict[str, dict[str, list[float]]]:
 class Collection:
     """All results of a directory, read when asked for; it remembers what was asked for and was not there."""
 
-    def __init__(self, directory: Path = DIRECTORY):
+    def __init__(self, directory: Path):
         self.directory = directory
         self.found: dict[str, Result] = {}
         self.absent: dict[str, str] = {}  # name: why

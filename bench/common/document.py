@@ -1,0 +1,54 @@
+"""What all reports have: figures with captions, where the numbers come from, what is missing."""
+from __future__ import annotations
+
+from typing import Iterable
+
+from results import Collection
+
+
+def figure(prefix: str, name: str, drawn: set[str], caption: str) -> str:
+    """Nothing if it was not drawn."""
+    return f"![{caption}](images/{prefix}_{name}.png)\n\n*{caption}*" if name in drawn else ""
+
+
+def provenance(collection: Collection, command: str) -> str:
+    found = collection.found.values()
+    total = sum(result.cpu for result in found)
+    commits = sorted({result.commit for result in found if result.commit})
+    sources: dict[str, set[str]] = {}
+    for result in found:
+        sources.setdefault(result.program, set()).add(result.source)
+    states = max((len(of_program) for of_program in sources.values()), default=0)
+    text = (
+        f"{len(collection.found)} runs, {total / 60:.0f} CPU minutes in all, one thread each; sources at "
+        f"commit {', '.join(commits) or 'unknown'}."
+    )
+    if states > 1:
+        text += (
+            f" **The results come from {states} states of the sources**: run `{command}` again for one state."
+        )
+    if collection.absent:
+        text += f" {len(collection.absent)} runs are missing: they are listed at the end, and their places hold a dash."
+    return text
+
+
+def missing_runs(collection: Collection) -> str:
+    if not collection.absent:
+        return ""
+    reasons: dict[str, list[str]] = {}
+    for name, why in collection.absent.items():
+        reasons.setdefault(why, []).append(name)
+    return (
+        "\n## Missing runs\n\n" + bullets(f"{why}: {', '.join(sorted(names))}" for why, names in reasons.items()) + "\n"
+    )
+
+
+def bullets(lines: Iterable[str]) -> str:
+    return "\n".join(f"- {line}" for line in lines)
+
+
+def tidy(text: str) -> str:
+    """One empty line where a figure is missing."""
+    while "\n\n\n" in text:
+        text = text.replace("\n\n\n", "\n\n")
+    return text.rstrip() + "\n"

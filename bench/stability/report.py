@@ -1,0 +1,200 @@
+#!/usr/bin/python3
+"""Writes docs/stability.md and its figures from the results of the runs. No result is typed in here."""
+from __future__ import annotations
+
+import argparse
+import functools
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+
+import document
+import runs
+import sections
+import verdicts
+from coefficients import CRITERION, SCENE
+from document import bullets, missing_runs, provenance, tidy
+from plots import FIGURES
+from plotting import draw_all
+from results import Collection
+from run import ROOT, cheapest_first
+
+figure = functools.partial(document.figure, "stability")
+
+SENSITIVITY_CAPTION = (
+    f"Change of the deposit against the defaults, in per cent, with two standard errors. Grey: {100 * CRITERION:g} %; yellow: "
+    "half to twice the default. A run-out of the tips is set by single particles"
+)
+LIMITS_CAPTION = (
+    "Largest time steps of the collapse. Full: calm, hollow: makes no energy. Grey line: what the library allows"
+)
+CREEP_CAPTION = "Peak and rms speed against time, by time step (full) and by delta (dashed); 1e-9 and less drawn as 1e-9"
+DRIFT_CAPTION = "Left: largest displacement since 3 s. Right: kinetic energy. L/dl = 16 unless it says otherwise"
+
+
+def compose(collection: Collection, drawn: set[str]) -> str:
+    body = f"""## Which settings change my result
+
+The scene of this report: a column of glass beads, {runs.WIDTH:g} m wide and {runs.HEIGHT:g} m high (a = 1.25), released at
+once; L/dl = 32 unless a table says otherwise. "Run-out" is (x - L0)/L0 with L0 = L/2, mean of both sides: of the *tips*,
+the ends of the connected deposit (`gp_state.x_left`, `x_right`), which single particles set; and of the points between
+which *98 % of the mass* lie.
+
+### The yardstick: the scatter of a run
+
+The flow is chaotic. Runs whose particles start {runs.JITTER:g} dl at most beside each other's end in deposits that differ by
+
+{sections.scatter(collection)}
+
+Scatter is the standard deviation of one run. What follows compares means of ensembles; ± is two standard errors of the
+difference.
+
+### The criterion
+
+No coefficient of the scheme changes the deposit by more than {100 * CRITERION:g} % when it is set to half or twice its
+default (`cfl` up to 1.0, `collision_distance` up to 1, the largest that the library takes). "Within doubt": the scatter
+left is larger than the distance to {100 * CRITERION:g} %.
+
+{bullets(verdicts.criterion(collection))}
+
+{sections.criterion(collection)}
+
+### Every coefficient
+
+{figure("sensitivity", drawn, SENSITIVITY_CAPTION)}
+
+Bold: the default. "At rest" is the time from which `gp_state.at_rest` stays 1; in brackets the share of the runs for which
+it does so before 1 s, if not all. The ledger error is the largest of all runs at any time. The last coefficients, from
+{SCENE[0].name} on, are of the scene or of the material and stand for comparison.
+
+{sections.sensitivity(collection)}
+
+{sections.threads(collection)}
+
+### What to set
+
+{sections.recommended()}
+
+{sections.dissipation(collection)}
+
+## Largest time step
+
+Counted in dl / wave speed; the wave speed is c0 √1.3 in the default scheme, whose shear modulus is 0.3 of the bulk modulus,
+else c0. `gp_config.allow_unstable_step` lets the library go beyond its limit. Found by bisection. A step
+
+- *makes no energy* while kinetic + potential + elastic energy stay below 1.001 E0;
+- is *calm* if besides the ledger's error stays below 0.02 E0 (or twice that of the smallest step, where the scheme loses
+  count at any step), the kinetic energy in the last tenth of the run below 1e-5 E0 in the collapse and 1e-7 E0 in the layer
+  (or three times that of the smallest step), and the highest pressure below three times that of the smallest step;
+- leaves *the same deposit* if besides the peak is within 2 % of the smallest step's.
+
+### Against theory
+
+A layer at rest, jittered by 0.05 dl, on its rough floor. Symplectic Euler is stable while ω² dt² + 2 λ dt ≤ 4, ω the
+highest frequency of the discrete operators and λ the damping of bulk viscosity and penalty
+([theory.py](../bench/stability/theory.py)). Beside a free surface a particle has neighbours on one side only, its inverse
+shape tensor is larger, and so is ω: there the noise begins. It stays bounded, since the yield stress takes what it makes;
+energy is made where the interior is unstable, too.
+
+{sections.theory_of_layer(collection)}
+
+The paper's schemes are far beyond the limit of their viscosity, λ dt ≤ 2 with λ of the order of μ p / (ρ δ dl²), at any
+step: |τ| ≤ μ p alone bounds what it does. They tremble the more the longer the step, and no step is calm in the sense of the
+default scheme: "calm" here is no more restless than three times the smallest step.
+
+{sections.theory_of_paper(collection)}
+
+### The map
+
+The same deposit / calm / makes no energy, collapse:
+
+{sections.limits(collection)}
+
+{figure("limits", drawn, LIMITS_CAPTION)}
+
+## Creep
+
+Without a true yield the material creeps: the regularised viscosity is at most μ p / δ, and stepped explicitly no more than
+about ρ dl² / dt of it acts, as if δ were dt μ p / (ρ dl²) (the column below, at a quarter of H).
+
+{sections.creep(collection)}
+
+{figure("creep", drawn, CREEP_CAPTION)}
+
+## At rest for a minute
+
+Displacements of the particles of the deposit from {runs.DRIFT_FROM:g} s on.
+
+{sections.drift(collection)}
+
+{figure("drift", drawn, DRIFT_CAPTION)}
+
+## Pressure noise
+
+Noise: rms departure of a particle's pressure from the plane fitted to its neighbours' within 4 dl, over ρ g H.
+
+{sections.pressure(collection)}
+
+{figure("pressure", drawn, "Highest pressure and noise of the pressure during and after the collapse")}
+
+## Zero-energy modes
+
+A layer at rest on the lattice is given velocities of alternating sign, ±1e-4 c0, by particles (checkerboard) or by rows
+(stripes). The gradient sees nothing of them; the penalty damps them at a rate that follows from the lattice. Without it
+they still lose energy to floor, free surface and collisions.
+
+{figure("modes", drawn, "Decay of velocities that the gradient does not see; dotted: theory of the penalty alone")}
+
+Decay rates of the kinetic energy in c0/dl; change of the deposit of the collapse against the default 0.02, and the penalty's
+share of what it dissipates:
+
+{sections.modes(collection)}
+
+## Resolution and size
+
+Ensembles to their rest; ± is two standard errors. `scripts/stability --long` adds L/dl = 256 and 512 and the run with a
+million particles.
+
+{sections.resolution(collection)}
+
+{figure("resolution", drawn, "Peak, run-out and run time against the resolution")}
+
+{sections.million(collection)}
+
+## What each preset cannot do
+
+{bullets(verdicts.cannot(collection))}
+
+[validation.md](validation.md) has what the schemes make of the paper's scenes, experiments and exact solutions.
+"""
+    head = f"""# Stability and sensitivity
+
+Made by `scripts/stability` ([bench/stability](../bench/stability)); `scripts/stability --report-only` writes it anew from the
+results in `results/stability`. Every number is measured by a run or computed from the theory that is named.
+{provenance(collection, "scripts/stability")}
+
+{bullets(verdicts.in_short(collection))}
+
+"""
+    return tidy(head + body + missing_runs(collection))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument(
+        "--results", type=Path, default=ROOT / "results" / "stability", help="where the results are [results/stability]"
+    )
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where stability.md goes [docs]")
+    arguments = parser.parse_args()
+    collection = Collection(arguments.results)
+    drawn = draw_all(FIGURES, arguments.docs / "images", "stability", collection)
+    for run in cheapest_first(runs.studies()):
+        collection(run)
+    report = arguments.docs / "stability.md"
+    report.write_text(compose(collection, drawn), encoding="utf-8")
+    print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")
+
+
+if __name__ == "__main__":
+    main()

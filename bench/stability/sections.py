@@ -1,0 +1,344 @@
+"""The tables of docs/stability.md."""
+from __future__ import annotations
+
+import math
+
+import runs
+import theory
+from coefficients import COEFFICIENTS, FINE, NUMERICAL
+from markdown import NONE, cpu, fixed, significant, signed, table
+from measures import (
+    QUANTITIES,
+    Change,
+    between,
+    change,
+    changes,
+    decay_rate,
+    mean,
+    root_mean_square,
+    same_bits,
+    share_at_rest,
+)
+from results import Collection, Result
+
+
+def present(results: Collection) -> list[runs.Scheme]:
+    """The schemes that this library has."""
+    return [s for s in runs.SCHEMES.values() if results(runs.creep(s.key))]
+
+
+def with_doubt(c: Change) -> str:
+    return f"{signed(100 * c.value, 1)} ± {100 * c.doubt:.1f} %" if not math.isnan(c.value) else NONE
+
+
+# ---------------------------------------------------------------------------------------------- sensitivity
+
+
+def scatter(results: Collection) -> str:
+    """The yardstick: how far runs differ that differ by nothing."""
+    rows = []
+    for resolution in (8, 16, 32, 64):
+        result = results(runs.resolution_run(resolution))
+        if not result:
+            continue
+        row = [f"{resolution}", f"{runs.RESOLUTIONS[resolution]}"]
+        for column in QUANTITIES:
+            m = mean(result, column)
+            unit = runs.WIDTH if column == "peak" else 1
+            row += [fixed(m.value / unit, 3), f"{100 * m.scatter / m.value:.1f} %"]
+        m = mean(result, "rest")
+        row += [fixed(m.value, 2), f"{100 * m.scatter / m.value:.0f} %", cpu(result.cpu / runs.RESOLUTIONS[resolution])]
+        rows.append(row)
+    header = ["L/dl", "runs", "peak y/L", "scatter", "run-out, 98 %", "scatter", "run-out, tips", "scatter"]
+    return table([*header, "at rest (s)", "scatter", "CPU s per run"], rows)
+
+
+def criterion(results: Collection) -> str:
+    rows = []
+    for resolution in (32, 64):
+        for c in NUMERICAL:
+            if not c.in_criterion or (resolution == 64 and c.name not in FINE):
+                continue
+            found = {column: changes(results, c, resolution, column) for column in QUANTITIES}
+            for k, value in enumerate((c.half, c.twice)):
+                cells, verdicts = [], []
+                for column in QUANTITIES:
+                    known = [one for tried, one in found[column] if tried == value]
+                    cells.append(with_doubt(known[0]) if known else NONE)
+                    verdicts.append(known[0].verdict if known else NONE)
+                label = c.name if k == 0 else ""
+                rows.append(
+                    [f"{label} {'' if k else f'(L/dl = {resolution})'}".strip(), f"{value:g}"]
+                    + [cell for pair in zip(cells, verdicts) for cell in pair]
+                )
+    header = ["coefficient", "set to"]
+    for name in QUANTITIES.values():
+        header += [name, "verdict"]
+    return table(header, rows)
+
+
+def sensitivity(results: Collection) -> str:
+    base = results(runs.base_ensemble())
+    if not base:
+        return ""
+    rows = []
+    for c in COEFFICIENTS:
+        for k, value in enumerate(c.all_values):
+            result = results(runs.varied(c, value))
+            label = f"{c.name}{f' ({c.unit})' if c.unit else ''}" if k == 0 else ""
+            mark = f"**{value:g}**" if value == c.default else f"{value:g}"
+            if not result:
+                rows.append([label, mark, *[NONE] * 6])
+                continue
+            seeds = len(result.tables["seeds"]["peak"])
+            cells = [with_doubt(change(result, base, column)) for column in QUANTITIES]
+            if value == c.default:
+                cells = ["0"] * len(QUANTITIES)
+            elif c.inert:
+                same = "same bits" if same_bits(result, base) else "NOT the same bits"
+                cells = [same] * len(QUANTITIES)
+            at_rest = share_at_rest(result)
+            rest = fixed(mean(result, "rest").value, 2) + (f" ({100 * at_rest:.0f} %)" if at_rest < 1 else "")
+            error = f"{100 * result.tables['seeds']['error'].max():.2f} %"
+            rows.append([label, mark, *cells, rest, error, cpu(result.cpu / seeds)])
+    return table(
+        ["coefficient", "value", *QUANTITIES.values(), "at rest (s)", "ledger error / E0", "CPU s per run"], rows
+    )
+
+
+def threads(results: Collection) -> str:
+    one, two = (results(runs.threads_run(n)) for n in (1, 2))
+    if not one or not two:
+        return ""
+    same = all(
+        (one.tables["series"][name] == two.tables["series"][name]).all() for name in one.tables["series"]
+    ) and same_bits(one, two)
+    return (
+        f"`threads`: with 1 and 2 the whole course of a collapse, {len(one.tables['series']['time'])} rows of "
+        f"{len(one.tables['series'])} quantities, is {'the same in every digit' if same else '**not the same**'}."
+    )
+
+
+def recommended() -> str:
+    rows = [[f"`{c.name}`", f"{c.default:g} {c.unit}".strip(), c.advice] for c in NUMERICAL]
+    return table(["coefficient", "default", "recommended"], rows)
+
+
+# -------------------------------------------------------------------------------------------- time step
+
+
+def _grades(result: Result | None) -> list[str]:
+    if not result:
+        return [NONE, NONE, NONE]
+    cells = []
+    for grade in ("same_deposit", "stable", "bounded"):
+        beyond = math.isinf(result.summary[f"not_{grade}"])
+        cells.append(f"{'≥ ' if beyond else ''}{result.summary[grade]:.2f}")
+    return cells
+
+
+def limits(results: Collection) -> str:
+    """Along each axis, all schemes."""
+    schemes = present(results)
+    rows = []
+    for axis in runs.AXES:
+        for k, value in enumerate(axis.values):
+            found = [results(axis.run(s.key, value)) if value in axis.of(s) else None for s in schemes]
+            rows.append([axis.name if k == 0 else "", f"{value:g}", *(" / ".join(_grades(result)) for result in found)])
+    return table(["axis", "value", *(f"{s.label}, L/dl = {s.limit_resolution}" for s in schemes)], rows)
+
+
+def theory_of_layer(results: Collection) -> str:
+    cases = [(h, (0.2, 0.02), runs.limit("default", "layer", horizon=h)) for h in runs.LIMIT_HORIZONS]
+    cases += [(4, d, runs.limit("default", "layer", damping=d)) for d in runs.LIMIT_DAMPING]
+    rows = []
+    for horizon, damping, run in cases:
+        result = results(run)
+        _, calm, bounded = _grades(result)
+        surface, inside = theory.default_surface(horizon, *damping), theory.default_interior(horizon, *damping)
+        rows.append([f"{horizon:g}", *(f"{d:g}" for d in damping), f"{surface:.2f}", calm, f"{inside:.2f}", bounded])
+    return table(
+        ["horizon / dl", "bulk_viscosity", "penalty", "theory, free surface", "measured: calm to", "theory, inside",
+         "measured: no energy made to"],
+        rows,
+    )  # fmt: skip
+
+
+def theory_of_paper(results: Collection) -> str:
+    rows = []
+    for s in present(results):
+        if not s.explicit_viscosity:
+            continue
+        for h in runs.LIMIT_HORIZONS:
+            result = results(runs.limit(s.key, "layer", horizon=h))
+            sound = theory.number_density_interior(h if s.force_states else 4, 4 if s.force_states else h, s.force_states)
+            _, calm, bounded = _grades(result)
+            rows.append([f"{s.label}, {h:g} dl, L/dl = {s.limit_resolution}", f"{sound:.2f}", calm, bounded])
+    return table(["scheme, radius", "theory, sound alone", "calm to", "no energy made to"], rows)
+
+
+# ------------------------------------------------------------------------------------------------- creep
+
+
+def creep(results: Collection) -> str:
+    rows = []
+    for s in present(results):
+        tried = [(c, s.deltas[0], runs.creep(s.key, cfl=c)) for c in s.cfls]
+        tried += [(s.own_cfl, d, runs.creep(s.key, delta=d)) for d in s.deltas[1:]]
+        for cfl, delta, run in tried:
+            result = results(run)
+            if not result:
+                continue
+            spacing = runs.WIDTH / s.resolution
+            dt = cfl * spacing / (s.wave_factor * result.summary["sound_speed"])
+            effective = theory.effective_delta(math.tan(math.radians(21)), runs.GRAVITY, runs.HEIGHT / 4, spacing, dt)
+            peaks = [result.at("peak_height", t) / runs.WIDTH for t in (runs.ARREST, 1, 3)]
+            speed = root_mean_square(between(result, "rms_speed", 1, 3)) / math.sqrt(runs.GRAVITY * 0.002)
+            rows.append(
+                [
+                    f"{s.label}, L/dl = {s.resolution}", f"{cfl:g}", f"{delta:g}",
+                    significant(effective, 2) if s.explicit_viscosity else "",
+                    *(fixed(p) for p in peaks), f"{signed(100 * (peaks[2] / peaks[0] - 1), 2)} %",
+                    significant(speed, 2), f"{100 * abs(result.at('error_share', 3)):.1f} %", cpu(result.cpu),
+                ]
+            )  # fmt: skip
+    return table(
+        ["scheme", "cfl", "delta (1/s)", "dt mu p/(rho dl²) (1/s)", "peak y/L at 0.42 s", "1 s", "3 s", "0.42 to 3 s",
+         "rms speed 1–3 s / √(g d)", "ledger error / E0 at 3 s", "CPU s"],
+        rows,
+    )  # fmt: skip
+
+
+def drift(results: Collection) -> str:
+    rows = []
+    for s in runs.SCHEMES.values():
+        tried = [(16, c, runs.drift(s.key, c)) for c in s.drift_cfls]
+        if s.key == "default":
+            tried.append((32, s.own_cfl, runs.drift_fine()))
+        for resolution, cfl, run in tried:
+            result = results(run)
+            if not result:
+                continue
+            end = s.drift_end
+            series = result.tables["series"]
+            late = between(result, "drift", 10, end)
+            rows.append(
+                [
+                    s.label, f"{resolution}", f"{cfl:g}", f"{end:g}", significant(series["drift"][-1], 2),
+                    significant(series["drift_rms"][-1], 2), significant(float(late[-1] - late[0]), 2),
+                    significant(series["kinetic_share"][-1], 2), f"{result.summary['steps']:.2g}", cpu(result.cpu),
+                    significant(result.summary["particle_steps_rate"], 2),
+                ]
+            )  # fmt: skip
+    return table(
+        ["scheme", "L/dl", "cfl", "to (s)", "largest / dl", "rms / dl", "largest, growth after 10 s", "KE/E0 at the end",
+         "steps", "CPU s", "particle-steps / CPU s"],
+        rows,
+    )  # fmt: skip
+
+
+# ------------------------------------------------------------------------------------- pressure, zero energy
+
+FLOW, REST = (0.05, 0.25), (0.6, 1.0)  # s
+
+
+def pressure_rows(results: Collection) -> list[tuple[str, Result]]:
+    tried = [(f"{s.label}, L/dl = {s.resolution}", runs.creep(s.key)) for s in present(results)]
+    tried += [(f"default, horizon {h:g} dl", runs.rough_horizon(h)) for h in runs.ROUGH_HORIZONS]
+    tried += [(f"default, no {name}", runs.undamped(name)) for name in runs.UNDAMPED]
+    return [(label, result) for label, run in tried if (result := results(run))]
+
+
+def pressure(results: Collection) -> str:
+    rows = []
+    for label, result in pressure_rows(results):
+        largest = [between(result, "max_pressure", *span) for span in (FLOW, REST)]
+        noise = [100 * root_mean_square(between(result, "pressure_noise", *span)) for span in (FLOW, REST)]
+        rows.append(
+            [
+                label, f"{result.tables['series']['max_pressure'].max():.2f}", f"{largest[0].mean():.2f}",
+                f"{largest[1].mean():.2f}", f"{noise[0]:.1f} %", f"{noise[1]:.1f} %",
+                cpu(result.cpu_to(1.0)),
+            ]
+        )  # fmt: skip
+    return table(
+        ["scheme", "highest p / (rho g H)", "mean of the highest, 0.05–0.25 s", "0.6–1 s", "noise, 0.05–0.25 s",
+         "noise, 0.6–1 s", "CPU s per simulated s"],
+        rows,
+    )  # fmt: skip
+
+
+def modes(results: Collection) -> str:
+    rows = []
+    base = results(runs.base_ensemble())
+    for penalty in runs.PENALTIES:
+        row = [f"{penalty:g}"]
+        for pattern in runs.MODES:
+            result = results(runs.mode(pattern, penalty))
+            unit = result.summary["sound_speed"] * 32 / runs.WIDTH if result else math.nan
+            row.append(significant(theory.checkerboard_decay(4, penalty, pattern), 2))
+            row.append(significant(decay_rate(result) / unit, 2) if result else NONE)
+        c = next(one for one in NUMERICAL if one.option == "--penalty")
+        deposit = results(runs.varied(c, penalty))
+        for column in ("peak", "spread"):
+            one = change(deposit, base, column) if deposit and base else None
+            row.append("0" if penalty == c.default else with_doubt(one) if one else NONE)
+        row.append(f"{100 * deposit.summary['penalty_share']:.1f} %" if deposit else NONE)
+        rows.append(row)
+    header = ["penalty"]
+    for pattern in runs.MODES:
+        header += [f"{pattern}: theory (c0/dl)", "measured"]
+    return table([*header, "peak", "run-out, 98 %", "share of the dissipation"], rows)
+
+
+def dissipation(results: Collection) -> str:
+    """Who takes the energy of the collapse with the defaults."""
+    result = results(runs.base_ensemble())
+    if not result:
+        return ""
+    names = {
+        "friction": "friction", "collision": "collisions", "wall": "the extrapolation at plates",
+        "penalty": "the zero-energy penalty", "diffusion": "density diffusion", "bulk": "bulk viscosity",
+    }  # fmt: skip
+    shares = {label: result.summary[f"{key}_share"] for key, label in names.items()}
+    listed = ", ".join(f"{label} {100 * share:.1f} %" for label, share in shares.items())
+    return f"Of the energy that the collapse dissipates (defaults, L/dl = 32, one run): {listed}."
+
+
+# ------------------------------------------------------------------------------------------------- large
+
+
+def resolution(results: Collection) -> str:
+    rows = []
+    for r, seeds in runs.RESOLUTIONS.items():
+        result = results(runs.resolution_run(r))
+        if not result:
+            continue
+        row = [f"{r}", f"{result.summary['particles']:.0f}", f"{seeds}"]
+        for column in QUANTITIES:
+            m = mean(result, column)
+            value = m.value / (runs.WIDTH if column == "peak" else 1)
+            error = 2 * m.error / (runs.WIDTH if column == "peak" else 1)
+            row.append(f"{value:.3f}" + (f" ± {error:.3f}" if seeds > 1 else ""))
+        row += [
+            fixed(mean(result, "rest").value, 2), f"{100 * result.tables['seeds']['error'].max():.2f} %",
+            cpu(result.cpu / seeds), significant(result.summary["particle_steps_rate"], 2),
+        ]  # fmt: skip
+        rows.append(row)
+    return table(
+        ["L/dl", "particles", "runs", "peak y/L", "run-out, 98 %", "run-out, tips", "at rest (s)", "ledger error / E0",
+         "CPU s per run", "particle-steps / CPU s"],
+        rows,
+    )  # fmt: skip
+
+
+def million(results: Collection) -> str:
+    result = results(runs.million())
+    if not result:
+        return ""
+    s = result.summary
+    return (
+        f"{s['particles']:.0f} particles, {s['steps']:.0f} steps (to {1000 * s['time']:.2f} ms): {cpu(s['cpu_seconds'])} CPU s, "
+        f"{significant(s['particle_steps_rate'], 2)} particle-steps per CPU second, {s['memory'] / s['particles']:.0f} bytes "
+        f"per particle ({s['memory'] / 1e6:.0f} MB), ledger error {100 * s['error']:.1e} % of E0."
+    )

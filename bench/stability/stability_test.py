@@ -1,0 +1,100 @@
+"""Runs coarse trials through the runner and the report: what comes out is physics, and the report holds it."""
+from __future__ import annotations
+
+import argparse
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+try:
+    import matplotlib  # noqa: F401
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+sys.path.append(str(HERE.parent / "common"))
+
+import measures
+import results
+import runs
+import theory
+from coefficients import COEFFICIENTS
+from run import cheapest_first
+
+
+def call(*command: object) -> str:
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+    print(done.stdout, done.stderr, sep="")
+    assert done.returncode == 0, f"{command[1]} ended with status {done.returncode}"
+    return done.stdout
+
+
+def check_theory() -> None:
+    """Long waves travel at the wave speed, and a narrower horizon resolves shorter ones."""
+    assert theory.default_surface(4.0) < theory.default_interior(4.0)
+    steps = [theory.default_interior(h, 0.0, 0.0) for h in (2.2, 3.0, 4.0, 5.0)]
+    assert all(a < b for a, b in zip(steps, steps[1:]))
+    # The largest gradient of a wave of unit amplitude that a support of R spacings passes on is some 2/R.
+    assert all(0.8 < step / h < 1.3 for step, h in zip(steps[1:], (3.0, 4.0, 5.0)))
+    assert theory.checkerboard_decay(4.0, 0.0, "checkerboard") == 0
+
+
+def check_ensemble(result: results.Result) -> None:
+    """Columns of 0.08 x 0.05 m, 8 spacings wide, that have collapsed and come to rest."""
+    seeds = result.tables["seeds"]
+    assert len(seeds["peak"]) == runs.RESOLUTIONS[8]
+    assert len(np.unique(seeds["peak"])) > len(seeds["peak"]) / 2, "seeds are runs of their own"
+    assert np.all((seeds["peak"] / runs.WIDTH > 0.3) & (seeds["peak"] / runs.WIDTH < 0.5))
+    assert np.all(seeds["spread"] <= seeds["tip"] + 1), "the tips are outside of 98 % of the mass, but for single grains"
+    assert np.all(seeds["error"] < 0.05) and np.all(seeds["gain"] <= 1e-3)
+    peak = measures.mean(result, "peak")
+    assert math.isclose(peak.error, peak.scatter / math.sqrt(len(seeds["peak"])))
+
+
+def check_mode(result: results.Result, penalty: float) -> None:
+    """The penalty takes what the gradient does not see, at least as fast as theory has it and not much faster."""
+    series = result.tables["series"]
+    assert 0.9 < series["unseen"][0] < 1.3, "a checkerboard is in no gradient"
+    unit = result.summary["sound_speed"] * 32 / runs.WIDTH
+    expected = theory.checkerboard_decay(4, penalty, "checkerboard") * unit
+    assert 0.9 < measures.decay_rate(result) / expected < 1.5
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=Path, required=True)
+    parser.add_argument("--work", type=Path, required=True)
+    arguments = parser.parse_args()
+    shutil.rmtree(arguments.work, ignore_errors=True)
+    found, docs = arguments.work / "results", arguments.work / "docs"
+    docs.mkdir(parents=True)
+    check_theory()
+
+    ensemble, mode = runs.resolution_run(8), runs.mode("checkerboard", 0.1)
+    for run in (ensemble, mode):
+        runner = (sys.executable, HERE / "runner.py", "--build", arguments.build, "--results", found, "--only", run.name)
+        call(*runner)
+        assert "0 to do" in call(*runner), "a run that has its result is not run again"
+    check_ensemble(results.load(ensemble, found))
+    check_mode(results.load(mode, found), 0.1)
+
+    call(sys.executable, HERE / "report.py", "--results", found, "--docs", docs)
+    report = (docs / "stability.md").read_text(encoding="utf-8")
+    peak = measures.mean(results.load(ensemble, found), "peak").value / runs.WIDTH
+    assert f"{peak:.3f} ±" in report, "the resolution table has the peak"
+    assert "Missing runs" in report and " nan" not in report.lower()
+    images = sorted(path.name for path in (docs / "images").iterdir())
+    assert images == ["stability_modes.png", "stability_resolution.png"], images
+    for name in images:
+        assert f"images/{name}" in report, f"{name} is not shown"
+    names = [one.name for one in cheapest_first(runs.studies())]
+    assert len(names) == len(set(names)) and all("/" not in name for name in names)
+    for c in COEFFICIENTS:
+        assert len({runs.varied(c, value).name for value in c.all_values}) == len(c.all_values)
+
+
+main()

@@ -1,0 +1,127 @@
+"""What the runs say in words: the head of docs/stability.md and what each preset cannot do."""
+from __future__ import annotations
+
+import math
+
+import runs
+from coefficients import CRITERION, NUMERICAL
+from markdown import significant
+from measures import QUANTITIES, between, changes, mean, root_mean_square, share_at_rest
+from results import Collection, Result
+from sections import FLOW, REST, present, with_doubt
+
+AT_REST = 1e-6  # KE/E0 below which the library's at_rest can hold
+
+
+def _percent(value: float, digits: int = 1) -> str:
+    return f"{100 * value:.{digits}f} %"
+
+
+def criterion(results: Collection) -> list[str]:
+    """Whether no coefficient changes the deposit by more than the criterion, and where it does."""
+    tried = [c for c in NUMERICAL if c.in_criterion]
+    if not results(runs.base_ensemble()):
+        return []
+    lines = []
+    for column, label in QUANTITIES.items():
+        known = {c.name: changes(results, c, 32, column) for c in tried}
+        if not all(known.values()):
+            continue
+        passed = [name for name, found in known.items() if all(one.verdict == "passes" for _, one in found)]
+        failed = [
+            f"{name} at {value:g} ({with_doubt(one)})"
+            for name, found in known.items()
+            for value, one in found
+            if one.verdict == "FAILS"
+        ]
+        open_ones = [
+            f"{name} at {value:g} ({with_doubt(one)})"
+            for name, found in known.items()
+            for value, one in found
+            if "doubt" in one.verdict
+        ]
+        text = f"{label}: {'holds' if not failed and not open_ones else 'does not hold' if failed else 'not decided'}"
+        text += f"; passes for {', '.join(passed) or 'none'}"
+        if failed:
+            text += f"; **fails for {', '.join(failed)}**"
+        if open_ones:
+            text += f"; within the doubt of the means for {', '.join(open_ones)}"
+        lines.append(text + ".")
+    return lines
+
+
+def in_short(results: Collection) -> list[str]:
+    lines = []
+    base = results(runs.base_ensemble())
+    if base:
+        scatter = ", ".join(
+            f"{label} {_percent(mean(base, column).scatter / mean(base, column).value)}"
+            for column, label in QUANTITIES.items()
+        )
+        lines.append(
+            f"Runs that differ by a jitter of {runs.JITTER:g} dl alone differ by (standard deviation of one run): {scatter}. "
+            "Nothing below that can be told from a single run."
+        )
+    head = f"No coefficient changes the deposit by more than {100 * CRITERION:g} % over a factor 2 about its default — "
+    lines += [head + line for line in criterion(results)]
+    step = results(runs.limit("default", "collapse"))
+    layer = results(runs.limit("default", "layer"))
+    if step and layer:
+        lines.append(
+            f"Largest time step of the default scheme, in dl / wave speed: a layer stays calm up to "
+            f"{layer.summary['stable']:.2f}, a collapse up to {step.summary['stable']:.2f}; the library allows 1.0 and takes "
+            "0.8."
+        )
+    for scheme, cfl, resolution in (("default", 0.8, 16), ("default", 0.8, 32), ("paper", 0.2, 16)):
+        result = results(runs.drift(scheme, cfl, resolution)) if resolution == 16 else results(runs.drift_fine())
+        if result:
+            lines.append(
+                f"At rest, {runs.SCHEMES[scheme].label} scheme, L/dl = {resolution}: from {runs.DRIFT_FROM:g} to "
+                f"{runs.SCHEMES[scheme].drift_end:g} s no particle moves by more than "
+                f"{significant(result.tables['series']['drift'][-1], 2)} dl ({result.cpu:.0f} CPU s)."
+            )
+    return lines
+
+
+def _creep_line(results: Collection, key: str) -> str:
+    result = results(runs.creep(key))
+    if not result:
+        return ""
+    peaks = [result.at("peak_height", t) for t in (runs.ARREST, 3)]
+    speed = root_mean_square(between(result, "rms_speed", 1, 3)) / math.sqrt(runs.GRAVITY * 0.002)
+    error = abs(result.at("error_share", 3))
+    rest = "comes to rest" if result.summary["kinetic"] < AT_REST else "does not come to rest"
+    return (
+        f"it {rest}: the peak changes by {100 * (peaks[1] / peaks[0] - 1):+.2f} % from {runs.ARREST:g} to 3 s, the rms "
+        f"speed left is {significant(speed, 2)} √(g d), and {_percent(error)} of E0 are unaccounted for by 3 s"
+    )
+
+
+def _noise_line(result: Result) -> str:
+    flow, rest = (100 * root_mean_square(between(result, "pressure_noise", *span)) for span in (FLOW, REST))
+    return (
+        f"its pressure is {flow:.1f} % of rho g H off its neighbours' plane while it flows and {rest:.1f} % afterwards "
+        f"(highest pressure {result.tables['series']['max_pressure'].max():.1f} rho g H)"
+    )
+
+
+def cannot(results: Collection) -> list[str]:
+    """What each preset cannot do, from what was measured."""
+    lines = []
+    for s in present(results):
+        result = results(runs.creep(s.key))
+        lines.append(f"**{s.label}**: {_creep_line(results, s.key)}; {_noise_line(result)}.")
+    for horizon in runs.ROUGH_HORIZONS:
+        result = results(runs.rough_horizon(horizon))
+        if result:
+            lines.append(f"**default, horizon {horizon:g} dl**: {_noise_line(result)}.")
+    late = []
+    for c in NUMERICAL:
+        for value in c.values:
+            result = results(runs.varied(c, value))
+            if result and share_at_rest(result) < 1:
+                late.append(f"{c.name} {value:g} ({_percent(1 - share_at_rest(result), 0)} of the runs)")
+    if late:
+        lines.append(f"**default, not at rest by 1 s**: {', '.join(late)}.")
+    return lines
+
