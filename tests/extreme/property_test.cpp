@@ -513,9 +513,12 @@ TEST(RandomScenes, MirroredAreMirrored) {
         // Columns are filled from the left: order the particles by what they are.
         const std::vector<double> y = field_of(left.sim, GP_FIELD_Y), other_y = field_of(right.sim, GP_FIELD_Y);
         const gp_state l = state_of(left.sim), r = state_of(right.sim);
-        EXPECT_NEAR(l.kinetic, r.kinetic, 1e-7 * (l.kinetic + l.elastic));
-        EXPECT_NEAR(l.elastic, r.elastic, 1e-7 * (l.kinetic + l.elastic));
-        EXPECT_NEAR(mean(y), mean(other_y), 1e-9 * scene.config.spacing);
+        // An implicit solve ends somewhere within its tolerance of 1e-5 of the forces: rounding decides where.
+        const bool implicit = scene.config.stress == GP_STRESS_IMPLICIT;
+        const double share = implicit ? 1e-4 : 1e-7;
+        EXPECT_NEAR(l.kinetic, r.kinetic, share * (l.kinetic + l.elastic));
+        EXPECT_NEAR(l.elastic, r.elastic, share * (l.kinetic + l.elastic));
+        EXPECT_NEAR(mean(y), mean(other_y), (implicit ? 1e-6 : 1e-9) * scene.config.spacing);
     }
     if (count >= 100) {
         EXPECT_GT(compared, static_cast<int64_t>(count) / 8);
