@@ -19,8 +19,8 @@ static const double pressure_excess =
     3; /* and has no higher pressures than this times the smallest step's: the highest is a spike */
 static const double deposit_allowed = 0.02; /* of the peak: and leaves the same deposit */
 
-/* Worst of all seeds, but for the peak, which is the mean, and for what is left of the motion, which is the least: a grain
- * that comes down late in one run is no instability. */
+/* Worst of all seeds, but for the peak, which is the mean, and for what is left of the motion and the highest pressure, which
+ * are the least: a grain that comes down late in one run, or hard, is no instability. */
 typedef struct tried {
     double courant, gain, error, latest, pressure, peak;
     int diverged, good[GRADES];
@@ -37,7 +37,7 @@ typedef struct search {
 
 static tried run_seeds(search *s, double courant) {
     trial t = *s->trial;
-    tried r = {.courant = courant, .gain = -INFINITY, .latest = INFINITY};
+    tried r = {.courant = courant, .gain = -INFINITY, .latest = INFINITY, .pressure = INFINITY};
     int k;
     t.courant = courant;
     for (k = 0; k < s->seeds; ++k, ++t.seed) {
@@ -49,7 +49,7 @@ static tried run_seeds(search *s, double courant) {
         r.gain = fmax(r.gain, o.gain);
         r.error = fmax(r.error, o.error);
         r.latest = fmin(r.latest, o.latest);
-        r.pressure = fmax(r.pressure, o.pressure);
+        r.pressure = fmin(r.pressure, o.pressure);
         r.peak += o.peak / s->seeds;
     }
     return r;

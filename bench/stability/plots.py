@@ -87,8 +87,8 @@ def limits(path: Path, results: Collection) -> bool:
                 )  # fmt: skip
         if axis.values == runs.LIMIT_HORIZONS:
             h = np.linspace(min(axis.values), max(axis.values), 8)
-            ax.plot(h, [theory.default_surface(x) for x in h], color="black", lw=1.2, label="theory, free surface (default)")
-            ax.plot(h, [theory.default_interior(x) for x in h], color="black", lw=1.2, ls=":", label="theory, inside (default)")
+            ax.plot(h, [theory.surface(x) for x in h], color="black", lw=1.2, label="theory, free surface (default)")
+            ax.plot(h, [theory.interior(x) for x in h], color="black", lw=1.2, ls=":", label="theory, inside (default)")
         else:
             ax.set_xscale("log")
             ax.set_xticks(axis.values, [f"{v:g}" for v in axis.values])

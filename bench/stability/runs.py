@@ -7,6 +7,7 @@ from typing import Callable
 
 from coefficients import COEFFICIENTS, FINE, NUMERICAL, Coefficient
 from run import Program, Run
+from theory import SHEAR_TO_BULK
 
 GRAVITY, HEIGHT, WIDTH = 9.81, 0.05, 0.08  # m/s2, m, m: of every trial
 # Particle-steps per CPU second of one core, for the estimates of the remaining time only.
@@ -48,6 +49,7 @@ class Scheme:
     cost: float = 1.0  # of a particle-step, in that of the default scheme
     force_states: bool = True  # the horizon is that of its operators; else the interaction radius
     explicit_viscosity: bool = False  # the regularised one of the paper
+    shear_to_bulk: float = 0.0  # elastic moduli
 
     @property
     def reach_option(self) -> str:
@@ -64,8 +66,9 @@ SCHEMES = {
     scheme.key: scheme
     for scheme in (
         Scheme(
-            "default", "default", math.sqrt(1.3), 0.8, 0.4, (0.2, 0.4, 0.8), (0.2, 0.4, 0.8, 1.0), (1e-6, 1e-2),
+            "default", "default", math.sqrt(1 + SHEAR_TO_BULK), 0.8, 0.4, (0.2, 0.4, 0.8), (0.2, 0.4, 0.8, 1.0), (1e-6, 1e-2),
             (1e-6, 1e-2), limit_resolutions=(16, 32, 64), limit_resolution=32, drift_end=60.0,
+            shear_to_bulk=SHEAR_TO_BULK,
         ),
         Scheme("paper", "paper, non-local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS),
         Scheme("local", "paper, local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS, force_states=False),

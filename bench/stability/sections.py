@@ -149,17 +149,23 @@ def limits(results: Collection) -> str:
 
 
 def theory_of_layer(results: Collection) -> str:
-    cases = [(h, (0.2, 0.02), runs.limit("default", "layer", horizon=h)) for h in runs.LIMIT_HORIZONS]
-    cases += [(4, d, runs.limit("default", "layer", damping=d)) for d in runs.LIMIT_DAMPING]
     rows = []
-    for horizon, damping, run in cases:
-        result = results(run)
-        _, calm, bounded = _grades(result)
-        surface, inside = theory.default_surface(horizon, *damping), theory.default_interior(horizon, *damping)
-        rows.append([f"{horizon:g}", *(f"{d:g}" for d in damping), f"{surface:.2f}", calm, f"{inside:.2f}", bounded])
+    for s in present(results):
+        if s.explicit_viscosity:
+            continue
+        cases = [(h, (0.2, 0.02), runs.limit(s.key, "layer", horizon=h)) for h in runs.LIMIT_HORIZONS]
+        if s.key == "default":
+            cases += [(4, d, runs.limit(s.key, "layer", damping=d)) for d in runs.LIMIT_DAMPING]
+        for horizon, damping, run in cases:
+            _, calm, bounded = _grades(results(run))
+            surface = theory.surface(horizon, *damping, s.shear_to_bulk)
+            inside = theory.interior(horizon, *damping, s.shear_to_bulk)
+            label = f"{s.label}, L/dl = {s.limit_resolution}"
+            values = [f"{value:g}" for value in (horizon, *damping)]
+            rows.append([label, *values, f"{surface:.2f}", calm, f"{inside:.2f}", bounded])
     return table(
-        ["horizon / dl", "bulk_viscosity", "penalty", "theory, free surface", "measured: calm to", "theory, inside",
-         "measured: no energy made to"],
+        ["scheme", "horizon / dl", "bulk_viscosity", "penalty", "theory, free surface", "measured: calm to",
+         "theory, inside", "measured: no energy made to"],
         rows,
     )  # fmt: skip
 

@@ -35,8 +35,8 @@ def call(*command: object) -> str:
 
 def check_theory() -> None:
     """Long waves travel at the wave speed, and a narrower horizon resolves shorter ones."""
-    assert theory.default_surface(4.0) < theory.default_interior(4.0)
-    steps = [theory.default_interior(h, 0.0, 0.0) for h in (2.2, 3.0, 4.0, 5.0)]
+    assert theory.surface(4.0) < theory.interior(4.0)
+    steps = [theory.interior(h, 0.0, 0.0) for h in (2.2, 3.0, 4.0, 5.0)]
     assert all(a < b for a, b in zip(steps, steps[1:]))
     # The largest gradient of a wave of unit amplitude that a support of R spacings passes on is some 2/R.
     assert all(0.8 < step / h < 1.3 for step, h in zip(steps[1:], (3.0, 4.0, 5.0)))

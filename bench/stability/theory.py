@@ -11,8 +11,7 @@ import math
 
 import numpy as np
 
-SHEAR_TO_BULK = 0.3  # shear modulus over bulk modulus of the elastic scheme
-WAVE_FACTOR = math.sqrt(1 + SHEAR_TO_BULK)  # its elastic wave speed over c0
+SHEAR_TO_BULK = 0.3  # shear modulus over bulk modulus of the elastic scheme; 0: shear is left to an implicit solve
 
 
 def neighbours(radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -37,7 +36,9 @@ def _tensor(bulk: float, shear: float) -> np.ndarray:
     return result
 
 
-def _strip(radius: float, k: float, rows: int, bulk: float, penalty: float) -> tuple[np.ndarray, np.ndarray]:
+def _strip(
+    radius: float, k: float, rows: int, bulk: float, penalty: float, shear: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness and damping of the default scheme on a strip of the lattice between two free surfaces, for waves k along
     it. Where neighbours are missing the inverse shape tensor is larger: the surface, not the interior, sets the limit."""
     x, y, w = neighbours(radius)
@@ -62,8 +63,8 @@ def _strip(radius: float, k: float, rows: int, bulk: float, penalty: float) -> t
             unseen += weight[n] / 2 * z.conj().T @ z
     g = gradient.reshape(4 * rows, 2 * rows)
     adjoint = g.conj().T
-    stiffness = adjoint @ np.kron(np.eye(rows), _tensor(1, SHEAR_TO_BULK)) @ g
-    damping = adjoint @ np.kron(np.eye(rows), _tensor(bulk, bulk)) @ g
+    stiffness = adjoint @ np.kron(np.eye(rows), _tensor(1, shear)) @ g
+    damping = adjoint @ np.kron(np.eye(rows), _tensor(bulk, bulk if shear else 0)) @ g
     return stiffness, damping + penalty / w.sum() * unseen
 
 
@@ -86,11 +87,11 @@ def _largest_step(stiffness: np.ndarray, damping: np.ndarray) -> float:
 
 
 @functools.lru_cache(maxsize=None)
-def default_surface(horizon: float, bulk: float = 0.2, penalty: float = 0.02) -> float:
+def surface(horizon: float, bulk: float = 0.2, penalty: float = 0.02, shear: float = SHEAR_TO_BULK) -> float:
     """Largest dt x wave speed / dl of the default scheme with a free surface."""
     rows = 2 * math.ceil(horizon) + 2
     waves = math.pi * np.array([0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0])
-    return WAVE_FACTOR * min(_largest_step(*_strip(horizon, k, rows, bulk, penalty)) for k in waves)
+    return math.sqrt(1 + shear) * min(_largest_step(*_strip(horizon, k, rows, bulk, penalty, shear)) for k in waves)
 
 
 def _symbols(radius: float, factor: np.ndarray, odd: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -106,7 +107,7 @@ def _symbols(radius: float, factor: np.ndarray, odd: bool) -> tuple[np.ndarray, 
 
 
 @functools.lru_cache(maxsize=None)
-def default_interior(horizon: float, bulk: float = 0.2, penalty: float = 0.02) -> float:
+def interior(horizon: float, bulk: float = 0.2, penalty: float = 0.02, shear: float = SHEAR_TO_BULK) -> float:
     """The same inside: on the infinite lattice stiffness and damping are those of one wave."""
     x, y, w = neighbours(horizon)
     r = np.hypot(x, y)
@@ -114,9 +115,9 @@ def default_interior(horizon: float, bulk: float = 0.2, penalty: float = 0.02) -
     dx, dy = _symbols(horizon, w * r, True)
     q2 = (dx**2 + dy**2) / moment**2
     pairs, _ = _symbols(horizon, w, False)
-    damping = 2 * bulk * q2 + penalty / w.sum() * (pairs - moment * q2)
-    stiffness = np.maximum((1 + SHEAR_TO_BULK) * q2, 1e-12)
-    return WAVE_FACTOR * float(np.min((np.sqrt(damping**2 + 4 * stiffness) - damping) / stiffness))
+    damping = (2 if shear else 1) * bulk * q2 + penalty / w.sum() * (pairs - moment * q2)
+    stiffness = np.maximum((1 + shear) * q2, 1e-12)
+    return math.sqrt(1 + shear) * float(np.min((np.sqrt(damping**2 + 4 * stiffness) - damping) / stiffness))
 
 
 @functools.lru_cache(maxsize=None)
