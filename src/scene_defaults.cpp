@@ -27,7 +27,7 @@ gp_config default_config(int32_t preset) {
     config.collision_distance = 0.9;
     config.zero_energy_penalty = 0.02;
     config.density_diffusion = 0.2;
-    config.bulk_viscosity = 0.2;
+    config.bulk_viscosity = 0.1;
     config.implicit_tolerance = 1e-5;
     config.implicit_iterations = 100;
     if (preset != GP_PRESET_DEFAULT) {

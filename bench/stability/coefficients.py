@@ -37,7 +37,7 @@ NUMERICAL = (
     Coefficient("collision_distance", "--collision-distance", 0.9, (0, 0.45, 0.7, 0.8, 1), "dl", 0.45, 1, "0.9"),
     Coefficient("zero_energy_penalty", "--penalty", 0.02, (0, 0.005, 0.01, 0.04, 0.1), "rho c0 / dl", 0.01, 0.04, "0.02"),
     Coefficient("density_diffusion", "--diffusion", 0.2, (0, 0.1, 0.4, 1), "c0 dl", 0.1, 0.4, "0.2"),
-    Coefficient("bulk_viscosity", "--bulk-viscosity", 0.2, (0, 0.1, 0.4, 1), "rho c0 dl", 0.1, 0.4, "0.2"),
+    Coefficient("bulk_viscosity", "--bulk-viscosity", 0.1, (0, 0.05, 0.2, 0.4, 1), "rho c0 dl", 0.05, 0.2, "0.1"),
     Coefficient("interaction_radius", "--interaction-radius", 4, (2, 8), "dl", advice="no matter in the default scheme", inert=True),
     Coefficient("delta", "--delta", 1e-6, (1e-2,), "1/s", advice="no matter in the default scheme", inert=True),
 )

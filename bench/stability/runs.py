@@ -120,7 +120,7 @@ def collapse(scheme: str, resolution: int, end: float, long: bool = False, **mor
 LIMIT_END, LAYER_END = 0.6, 0.3  # s: a collapse has come to rest by then, and the jitter of a layer died down
 LIMIT_HORIZONS = (2.2, 3, 4, 5)
 # Of the default scheme's layer beside the horizons: bulk_viscosity and zero_energy_penalty, which count in the theory.
-LIMIT_DAMPING = ((0.0, 0.02), (1.0, 0.02), (0.2, 0.0), (0.2, 0.5))
+LIMIT_DAMPING = ((0.0, 0.02), (1.0, 0.02), (0.1, 0.0), (0.1, 0.5))
 
 
 def limit(

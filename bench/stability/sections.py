@@ -153,7 +153,7 @@ def theory_of_layer(results: Collection) -> str:
     for s in present(results):
         if s.explicit_viscosity:
             continue
-        cases = [(h, (0.2, 0.02), runs.limit(s.key, "layer", horizon=h)) for h in runs.LIMIT_HORIZONS]
+        cases = [(h, (0.1, 0.02), runs.limit(s.key, "layer", horizon=h)) for h in runs.LIMIT_HORIZONS]
         if s.key == "default":
             cases += [(4, d, runs.limit(s.key, "layer", damping=d)) for d in runs.LIMIT_DAMPING]
         for horizon, damping, run in cases:

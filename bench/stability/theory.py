@@ -87,7 +87,7 @@ def _largest_step(stiffness: np.ndarray, damping: np.ndarray) -> float:
 
 
 @functools.lru_cache(maxsize=None)
-def surface(horizon: float, bulk: float = 0.2, penalty: float = 0.02, shear: float = SHEAR_TO_BULK) -> float:
+def surface(horizon: float, bulk: float = 0.1, penalty: float = 0.02, shear: float = SHEAR_TO_BULK) -> float:
     """Largest dt x wave speed / dl of the default scheme with a free surface."""
     rows = 2 * math.ceil(horizon) + 2
     waves = math.pi * np.array([0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0])
@@ -107,7 +107,7 @@ def _symbols(radius: float, factor: np.ndarray, odd: bool) -> tuple[np.ndarray, 
 
 
 @functools.lru_cache(maxsize=None)
-def interior(horizon: float, bulk: float = 0.2, penalty: float = 0.02, shear: float = SHEAR_TO_BULK) -> float:
+def interior(horizon: float, bulk: float = 0.1, penalty: float = 0.02, shear: float = SHEAR_TO_BULK) -> float:
     """The same inside: on the infinite lattice stiffness and damping are those of one wave."""
     x, y, w = neighbours(horizon)
     r = np.hypot(x, y)

@@ -82,7 +82,7 @@ TEST(Config, DefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(c.collision_distance, 0.9);
     EXPECT_EQ(c.zero_energy_penalty, 0.02);
     EXPECT_EQ(c.density_diffusion, 0.2);
-    EXPECT_EQ(c.bulk_viscosity, 0.2);
+    EXPECT_EQ(c.bulk_viscosity, 0.1);
     EXPECT_EQ(c.channel_width, 0);
     EXPECT_EQ(c.channel_friction, 0);
     EXPECT_EQ(c.periodic_x_min, 0);
