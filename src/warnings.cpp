@@ -19,6 +19,7 @@ constexpr double least_layers = 3;        // of a column
 constexpr double penalty_share = 0.1;     // of the dissipation
 constexpr double error_share = 0.02;      // of the ledger's scale
 constexpr double passed_share = 0.05;     // dl behind a plate; on its line particles are while they collide
+constexpr double overlap_share = 0.5;     // dl between particles as they begin
 
 // Steps between looks at what takes a pass over particles or contacts.
 constexpr int64_t interval = 64;
@@ -40,6 +41,30 @@ const Contact *passed_contact(const World &world) {
             return &contact;
     }
     return nullptr;
+}
+
+struct Overlaps {
+    int64_t count = 0;                // pairs
+    int64_t first = -1, second = -1;  // ids of the closest two
+    double closest = 0, x = 0, y = 0; // m: their distance, and where the first is
+};
+
+// Pairs that begin closer than overlap_share: the lattice of two columns laid over each other, particles put in twice.
+Overlaps find_overlaps(const World &world) {
+    Overlaps found;
+    const Particles &p = world.particles;
+    const double reach = overlap_share * world.constants.spacing;
+    for (int64_t i = 0; i < p.count; ++i)
+        for_each_candidate(world.grid, world.images, p.x[i], p.y[i], reach, [&](int64_t j) {
+            const double distance = std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]);
+            const int64_t other = p.id[world.images.source(j)];
+            if (other <= p.id[i] || distance >= reach)
+                return;
+            if (found.count == 0 || distance < found.closest)
+                found = {found.count, p.id[i], other, distance, p.x[i], p.y[i]};
+            ++found.count;
+        });
+    return found;
 }
 
 } // namespace
@@ -83,6 +108,12 @@ std::vector<std::string> Warnings::of_scene(const World &world) {
         texts.push_back(format_text("%lld particles begin within a quarter spacing of a plate's wetted line or just "
                                     "behind it",
                                     static_cast<long long>(wrong_side)));
+    if (const Overlaps found = find_overlaps(world); found.count > 0)
+        texts.push_back(format_text(
+            "%lld pairs of particles begin closer than %g m, half a spacing: they drive each other "
+            "apart; the closest are particles %lld and %lld, %g m apart at (%g, %g) m",
+            static_cast<long long>(found.count), overlap_share * c.spacing, static_cast<long long>(found.first),
+            static_cast<long long>(found.second), found.closest, found.x, found.y));
     return texts;
 }
 

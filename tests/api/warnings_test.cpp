@@ -83,6 +83,24 @@ TEST(Warnings, OfAThinColumn) {
     EXPECT_TRUE(log.warnings.empty()) << log.all();
 }
 
+// Two columns laid over each other by 1.75 spacings; two particles side by side across the ends of a period.
+TEST(Warnings, OfParticlesOnTopOfEachOther) {
+    expect_once(make_config(),
+                [](Sim &sim) {
+                    sim.add(make_column(3, 3));
+                    sim.add(make_column(3, 3, 1.25 * spacing));
+                },
+                1e-3, {"6 pairs of particles begin closer than", "0.0025 m apart"});
+    gp_config periodic = make_config();
+    periodic.periodic_x_max = 20 * spacing;
+    expect_once(periodic,
+                [](Sim &sim) {
+                    const double x[] = {0.1 * spacing, 19.9 * spacing}, y[] = {0, 0};
+                    ASSERT_EQ(gp_add_particles(sim, 0, 2, x, y, nullptr, nullptr, nullptr), GP_OK) << gp_last_error();
+                },
+                1e-3, {"1 pairs of particles begin closer than"});
+}
+
 // A column at rest under its own weight that a sound speed a fifth of the own one compresses by 12.5 %.
 TEST(Warnings, OfCompression) {
     gp_config config = make_config();
