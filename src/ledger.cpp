@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/compression.hpp"
+
 namespace gp {
 
 namespace {
 
-// Per volume: integral of p d rho / rho from rho0 on. A viscous stress stores nothing.
-double compression_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
-    const double compression = p.density[i] / m.density - 1;
-    return compression > 0 ? m.bulk_modulus * (compression - std::log1p(compression)) : 0.0;
+// Per volume. A viscous stress stores nothing.
+double isotropic_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
+    return compression_energy(p.density[i] / m.density, m.bulk_modulus);
 }
 
 // That and s:s / 4G.
 double elastic_energy(const Particles &p, const MaterialConstants &m, int64_t i) {
-    return compression_energy(p, m, i) + (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
+    return isotropic_energy(p, m, i) + (p.sxx[i] * p.sxx[i] + p.sxy[i] * p.sxy[i]) / (2 * m.map.shear_modulus);
 }
 
 // The same as the first with the paper's equation of state.
@@ -26,7 +27,7 @@ double number_density_energy(const Particles &p, const MaterialConstants &m, int
 auto energy_of(Scheme scheme) {
     switch (scheme) {
     case Scheme::adjoint: return elastic_energy;
-    case Scheme::implicit: return compression_energy;
+    case Scheme::implicit: return isotropic_energy;
     default: return number_density_energy;
     }
 }

@@ -19,6 +19,8 @@ void Particles::allocate(int64_t n, const Optional &use) {
         syy.resize(size);
     if (use.stressed)
         stressed.resize(size);
+    if (use.carried)
+        carried.resize(size, 1.0);
     if (use.flowing)
         flowing.resize(size);
     scratch_int64_.resize(size);

@@ -195,6 +195,12 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                     bytes_of(p.stressed)));
     entries.push_back(field_entry(
         "flowing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0", bytes_of(p.flowing)));
+    const bool flights = t.plates && !by_number_density(t.scheme);
+    entries.push_back(field_entry("carried", flights,
+                                  flights     ? "grains in flight above a plate carry no stress"
+                                  : !t.plates ? "the scene has no plates"
+                                              : "the paper's schemes know no flight",
+                                  bytes_of(p.carried)));
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));

@@ -110,9 +110,9 @@ std::vector<std::string> Warnings::of_scene(const World &world) {
                                     static_cast<long long>(wrong_side)));
     if (const Overlaps found = find_overlaps(world); found.count > 0)
         texts.push_back(format_text(
-            "%lld pairs of particles begin closer than %g m, half a spacing: they drive each other "
-            "apart; the closest are particles %lld and %lld, %g m apart at (%g, %g) m",
-            static_cast<long long>(found.count), overlap_share * c.spacing, static_cast<long long>(found.first),
+            "pairs of particles that begin closer than half a spacing, %g m: %lld; they drive each "
+            "other apart. The closest are particles %lld and %lld, %g m apart at (%g, %g) m",
+            overlap_share * c.spacing, static_cast<long long>(found.count), static_cast<long long>(found.first),
             static_cast<long long>(found.second), found.closest, found.x, found.y));
     return texts;
 }

@@ -34,7 +34,7 @@ struct Ledger {
     double reference_height = 0; // m along -g, where the potential is zero
     double dissipated = 0;       // all of it
     double penalty = 0;          // the part of the zero-energy penalty
-    double walls = 0;            // the part lost between ghosts and plates
+    double walls = 0;            // the part lost between ghosts and plates, and by grains in flight above them
     double diffusion = 0;        // the part of density diffusion
     double bulk = 0;             // the part of the bulk viscosity
     double collisions = 0;       // the part of the collision safeguard
@@ -55,6 +55,7 @@ struct alignas(64) BlockSums {
     double unbalanced = 0;     // kg/m, mass of the particles that forces and pushes together still accelerate
     double collision_loss = 0; // J/m
     double side_walls = 0;     // J/m, dissipated by the friction of side walls
+    double released = 0;       // J/m, of compression that grains in flight let go
     double lost = 0;           // J/m, kinetic energy lost in the implicit solve
     int64_t collisions = 0;    // counted from both sides
     double kinetic = 0;        // J/m

@@ -96,6 +96,7 @@ template <bool Adjoint> void close_books(World &world) {
         total.plastic += block.plastic;
         total.bulk += block.bulk;
         total.diffused += block.diffused;
+        total.released += block.released;
         total.total_power += block.total_power;
         total.internal_power += block.internal_power;
         total.unbalanced += block.unbalanced;
@@ -107,7 +108,7 @@ template <bool Adjoint> void close_books(World &world) {
     }
 
     const double penalty = Adjoint ? dt * (contact_power - total.internal_power - total.total_power) : 0.0;
-    const double lost_at_walls = Adjoint ? dt * (plate_power - contact_power) : 0.0;
+    const double lost_at_walls = total.released + (Adjoint ? dt * (plate_power - contact_power) : 0.0);
 
     Ledger &ledger = world.ledger;
     ledger.plate_work -= dt * plate_power;

@@ -14,6 +14,7 @@ struct View {
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, lattice_moment;
     double *lxx, *lxy, *lyx, *lyy, *ixx, *ixy, *iyy;
+    double *carried; // NULL: no plates
 };
 
 GP_MULTIVERSION void gradient_rows(const View &v, int64_t begin, int64_t end) {
@@ -31,6 +32,8 @@ GP_MULTIVERSION void gradient_rows(const View &v, int64_t begin, int64_t end) {
         }
         SymmetricTensor g = inverse_shape(m, v.lattice_moment);
         g = {carried * g.xx, carried * g.xy, carried * g.yy};
+        if (v.carried)
+            v.carried[i] = carried;
         v.ixx[i] = g.xx;
         v.ixy[i] = g.xy;
         v.iyy[i] = g.yy;
@@ -64,7 +67,8 @@ void gradient(World &world) {
                     p.lyy.data(),
                     p.gxx.data(),
                     p.gxy.data(),
-                    p.gyy.data()};
+                    p.gyy.data(),
+                    p.carried.empty() ? nullptr : p.carried.data()};
     for_each_block(world.threads, p.count,
                    [&](int64_t, int64_t begin, int64_t end) { gradient_rows(view, begin, end); });
 }

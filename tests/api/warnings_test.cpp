@@ -90,7 +90,7 @@ TEST(Warnings, OfParticlesOnTopOfEachOther) {
                     sim.add(make_column(3, 3));
                     sim.add(make_column(3, 3, 1.25 * spacing));
                 },
-                1e-3, {"6 pairs of particles begin closer than", "0.0025 m apart"});
+                1e-3, {"pairs of particles that begin closer than half a spacing, 0.005 m: 6;", "0.0025 m apart"});
     gp_config periodic = make_config();
     periodic.periodic_x_max = 20 * spacing;
     expect_once(periodic,
@@ -98,7 +98,7 @@ TEST(Warnings, OfParticlesOnTopOfEachOther) {
                     const double x[] = {0.1 * spacing, 19.9 * spacing}, y[] = {0, 0};
                     ASSERT_EQ(gp_add_particles(sim, 0, 2, x, y, nullptr, nullptr, nullptr), GP_OK) << gp_last_error();
                 },
-                1e-3, {"1 pairs of particles begin closer than"});
+                1e-3, {"pairs of particles that begin closer than half a spacing, 0.005 m: 1;"});
 }
 
 // A column at rest under its own weight that a sound speed a fifth of the own one compresses by 12.5 %.

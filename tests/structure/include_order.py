@@ -6,7 +6,7 @@ import sys
 
 LAYERS = [
     ["granperi/gp", "error", "check", "parallel"],
-    ["geometry", "kernel", "material/number_density_state", "material/regularized", "material/return_map", "material/linearized"],
+    ["geometry", "kernel", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/linearized"],
     ["scene", "scene_constants", "scene_defaults", "scene_pressure"],
     ["particles"],
     ["viscous_system"],
