@@ -16,12 +16,13 @@ gp_material beads() {
 }
 
 // The collapse with a = 1.25 of a material.
-gp_state deposit(const gp_material &m, gp_config c = config(Collapse::length / resolution), double end = 1) {
+gp_state deposit(const gp_material &m, gp_config c = config(Collapse::length / resolution), double end = 1,
+                 double trembling = 1e-6) {
     Sim sim(c);
     sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height, sim.material(m));
     sim.add(floor_at(0, -0.6, 0.6));
     const gp_state state = run_to_rest(sim, 0.05, end);
-    EXPECT_LT(state.kinetic, 1e-6 * Collapse::energy); // single grains may tremble, and at_rest be 0, in one run of ten
+    EXPECT_LT(state.kinetic, trembling * Collapse::energy);
     EXPECT_LT(std::abs(state.energy_error), 0.01 * Collapse::energy);
     expect_finite(sim);
     return state;
@@ -33,10 +34,11 @@ struct Deposits {
     Sample peak, potential;
 };
 
-Deposits deposits(const gp_material &m, int runs = 16) {
+Deposits deposits(const gp_material &m, int runs = 24) {
     Deposits found;
     for (int k = 0; k < runs; ++k) {
-        const gp_state s = deposit(m, shaken(config(Collapse::length / 8), k));
+        // Single grains may tremble on others, and at_rest be 0, at 1 s in one run of ten: up to 2.4e-6 of the energy.
+        const gp_state s = deposit(m, shaken(config(Collapse::length / 8), k), 1, 1e-5);
         found.peak.add(s.peak_height / Collapse::length);
         found.potential.add(s.potential / (m.volume_fraction * m.grain_density) * Collapse::density / Collapse::energy);
     }
@@ -80,14 +82,14 @@ TEST(RateConstant, GoesFromOneLimitOfTheLawToTheOther) {
     m.i0 = 1e9;
     const double weak = deposit(m).peak_height; // mu differs by 1e-9, and the motion by what that grows to
     EXPECT_NEAR(weak, deposit(of_friction(m.mu_s)).peak_height, 1e-6 * weak);
-    m.i0 = 1e-9;
+    m.i0 = 1e-9; // the means of 40 runs differ by -.4 +- .2 % in the peak and -.8 +- .2 % in the potential energy
     expect_same(deposits(m, 40), deposits(of_friction(m.mu_2), 40), 0.015);
 }
 
-// It sets the pressure over rho_s, and so I: nearly nothing is the limit of large I. No friction but that of the law changes.
+// It sets the pressure over rho_s, and so I: next to nothing is the limit of large I (1e-6 is 1.9 +- .4 % short of it). No friction but that of the law changes.
 TEST(VolumeFraction, MayBeOneOrNearlyNothing) {
     gp_material m = beads();
-    m.volume_fraction = 1e-6;
+    m.volume_fraction = 1e-10;
     expect_same(deposits(m), deposits(of_friction(m.mu_2)), 0.02);
     m.volume_fraction = 1;
     expect_same(deposits(m), deposits(beads()), 0.02);
