@@ -1,4 +1,5 @@
 // Columns from flat to very tall, coarse ones, layers of one grain, and what stays at rest for long.
+#include "../support/ensemble.hpp"
 #include "extreme_support.hpp"
 
 using namespace test;
@@ -7,22 +8,22 @@ namespace {
 
 struct Deposit {
     gp_state state;
-    double run_out, height; // (L_end - L) / L of the half width, and H_end / L
+    double run_out, height,
+        error; // (L_end - L) / L of the half width, H_end / L, that of the ledger over the start's energy
 };
 
-// Half a column of `across` x `up` spacings beside a smooth wall, its plane of symmetry.
-Deposit fall(int across, int up) {
+// Half a column of `across` x `up` spacings beside a smooth wall, its plane of symmetry; the k-th of its runs.
+Deposit fall(int across, int up, int k) {
     const double dl = 0.0025, half = across * dl, height = up * dl, time = std::sqrt(height / 9.81);
-    Sim sim(config(dl));
+    Sim sim(shaken(config(dl), k));
     sim.column(0, 0, half, height);
     sim.add(floor_at(0, -0.1, half + 20 * height));
     sim.add(plate(0, 0, 0, 2 * height, GP_WALL_FREE_SLIP));
     const gp_state s = run_to_rest(sim, time, 20 * time);
     EXPECT_EQ(s.at_rest, 1);
     expect_finite(sim);
-    // The ledger's error, and what the scheme's own losses are to those by friction.
-    EXPECT_LT(std::abs(s.energy_error), 0.02 * 1550 * 9.81 * half * height * height / 2);
-    return {s, (s.x_right - half) / half, s.peak_height / half};
+    const double energy = 1550 * 9.81 * half * height * height / 2;
+    return {s, (s.x_right - half) / half, s.peak_height / half, std::abs(s.energy_error) / energy};
 }
 
 } // namespace
@@ -31,54 +32,89 @@ Deposit fall(int across, int up) {
 // 3.25 a^0.7 from a = 2 on (Staron & Hinch 2005); so does the law: 2.2 a, 3.9 a^0.7 from a = 7 on (Lagree et al. 2011).
 TEST(AspectRatio, RunsOutAsTheScalingLawsSay) {
     struct Case {
-        int across, up;
+        int across, up, runs;
     };
-    for (const Case c : {Case{40, 4}, Case{32, 16}, Case{16, 16}, Case{12, 24}, Case{8, 40}, Case{6, 60}}) {
+    for (const Case c :
+         {Case{80, 8, 6}, Case{32, 16, 3}, Case{16, 16, 3}, Case{12, 24, 3}, Case{8, 40, 4}, Case{6, 60, 4}}) {
         const double a = static_cast<double>(c.up) / c.across;
         SCOPED_TRACE(a);
-        const Deposit d = fall(c.across, c.up);
+        Sample run_out;
+        for (int k = 0; k < c.runs; ++k) {
+            const Deposit d = fall(c.across, c.up, k);
+            run_out.add(d.run_out);
+            EXPECT_LE(d.height, a + shake / c.across + 1e-6);
+            EXPECT_LT(d.error, 0.02);
+        }
         const double low = a < 2.3 ? 1.2 * a : 1.9 * std::pow(a, 2. / 3);
         const double high =
             std::max(a < 2 ? 2.5 * a : 3.25 * std::pow(a, 0.7), a < 7 ? 2.2 * a : 3.9 * std::pow(a, 0.7));
-        EXPECT_GT(d.run_out, 0.95 * low);
-        EXPECT_LT(d.run_out, high);
-        EXPECT_LE(d.height, a + 1e-6);
+        expect_mean_above("run-out", run_out, 0.95 * low);
+        expect_mean_below("run-out", run_out, high);
     }
 }
 
 TEST(AspectRatio, OfFiftyComesToRest) {
-    const Deposit d = fall(4, 200);
-    EXPECT_GT(d.run_out, 0.95 * 1.9 * std::pow(50, 2. / 3));
-    EXPECT_LT(d.run_out, 3.9 * std::pow(50, 0.7));
+    Sample run_out, error;
+    for (int k = 0; k < 3; ++k) {
+        const Deposit d = fall(4, 200, k);
+        run_out.add(d.run_out);
+        error.add(d.error);
+    }
+    expect_mean_above("run-out", run_out, 0.95 * 1.9 * std::pow(50, 2. / 3));
+    expect_mean_below("run-out", run_out, 3.9 * std::pow(50, 0.7));
+    expect_mean_below("error of the ledger", error, 0.02);
 }
 
-// The front is a grain or two.
+// Fronts of coarse columns lag behind: by three grains a side at most. Peaks are within 5 %.
 TEST(Resolution, OfEightGivesTheDepositOfThirtyTwo) {
-    for (const int resolution : {8, 16, 32}) {
+    struct Ensemble {
+        Sample peak, run_out;
+    };
+    const auto deposits = [](int resolution, int runs) {
+        Ensemble found;
+        for (int k = 0; k < runs; ++k) {
+            Sim sim(shaken(config(Collapse::length / resolution), k));
+            sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height);
+            sim.add(floor_at(0, -0.4, 0.4));
+            sim.run(0.6);
+            const gp_state s = sim.state();
+            EXPECT_LT(s.kinetic, 1e-6 * Collapse::energy);
+            found.peak.add(s.peak_height / Collapse::length);
+            found.run_out.add((s.x_right - s.x_left) / Collapse::length - 1);
+        }
+        return found;
+    };
+    const Ensemble fine = deposits(32, 4);
+    for (const int resolution : {8, 16}) {
         SCOPED_TRACE(resolution);
-        Collapse collapse(resolution);
-        const gp_state s = run_to_rest(collapse.sim, 0.1, 1);
-        EXPECT_EQ(s.at_rest, 1);
-        EXPECT_NEAR(s.peak_height / Collapse::length, 0.408, 0.05 * 0.408);
-        EXPECT_NEAR((s.x_right - s.x_left) / Collapse::length - 1, 2.04, 4. / resolution);
+        const Ensemble coarse = deposits(resolution, 12);
+        expect_means_near("peak", coarse.peak, fine.peak, 0.05 * fine.peak.mean());
+        expect_means_near("run-out", coarse.run_out, fine.run_out, 6. / resolution);
     }
 }
 
-// A row of grains (or two, or three) on a rough floor: its ends slump, its middle stays.
+// A row of grains (or two, or three) on a rough floor: its ends slump, and reach their middle by no more than the wave of
+// their release, which is over within a second. (The slump moves what is 2 heights from an end by .02 dl, at any speed of
+// sound; here the middle is 6 heights away and more, and moves by .001 to .005 dl; one row, with its ends, by .005.)
 TEST(ThinLayer, OnAFloorStays) {
+    const double dl = 0.0025, width = 48 * dl;
     for (const int rows : {1, 2, 3}) {
         SCOPED_TRACE(rows);
-        Sim sim(config(0.0025));
-        sim.column(0, 0, 0.05, rows * 0.0025);
-        sim.add(floor_at(0, -0.1, 0.2));
+        Sim sim(config(dl));
+        sim.column(0, 0, width, rows * dl);
+        sim.add(floor_at(0, -0.1, width + 0.1));
         const std::vector<double> x = sim.field(GP_FIELD_X), y = sim.field(GP_FIELD_Y);
         sim.run(1);
+        const std::vector<double> x_early = sim.field(GP_FIELD_X), y_early = sim.field(GP_FIELD_Y);
+        sim.run(2);
         EXPECT_EQ(sim.state().at_rest, 1);
         const std::vector<double> x_end = sim.field(GP_FIELD_X), y_end = sim.field(GP_FIELD_Y);
         for (std::size_t i = 0; i < x.size(); ++i)
-            if (rows == 1 || std::abs(x[i] - 0.025) < 0.01) {
-                EXPECT_NEAR(x_end[i], x[i], 0.02 * 0.0025);
-                EXPECT_NEAR(y_end[i], y[i], 0.02 * 0.0025);
+            if (rows == 1 || std::abs(x[i] - width / 2) < 4 * dl) {
+                EXPECT_NEAR(x_end[i], x[i], 0.01 * dl);
+                EXPECT_NEAR(y_end[i], y[i], 0.01 * dl);
+                EXPECT_NEAR(x_end[i], x_early[i], 1e-4 * dl);
+                EXPECT_NEAR(y_end[i], y_early[i], 1e-4 * dl);
             }
         expect_finite(sim);
     }

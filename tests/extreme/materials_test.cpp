@@ -1,5 +1,6 @@
 // Materials at the ends of what is allowed: grains from dust to boulders, no friction, so much of it that a column stands,
 // laws that do not depend on the rate.
+#include "../support/ensemble.hpp"
 #include "extreme_support.hpp"
 
 using namespace test;
@@ -15,62 +16,83 @@ gp_material beads() {
 }
 
 // The collapse with a = 1.25 of a material.
-gp_state deposit(const gp_material &m, double end = 1) {
-    Sim sim(config(Collapse::length / resolution));
+gp_state deposit(const gp_material &m, gp_config c = config(Collapse::length / resolution), double end = 1,
+                 double trembling = 1e-6) {
+    Sim sim(c);
     sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height, sim.material(m));
     sim.add(floor_at(0, -0.6, 0.6));
     const gp_state state = run_to_rest(sim, 0.05, end);
-    EXPECT_EQ(state.at_rest, 1);
+    EXPECT_LT(state.kinetic, trembling * Collapse::energy);
     EXPECT_LT(std::abs(state.energy_error), 0.01 * Collapse::energy);
     expect_finite(sim);
     return state;
 }
 
-gp_state deposit_of_friction(double mu) {
+// What an ensemble of deposits comes to: at L/dl = 8, where a run costs an eighth and scatters no more (1.3 to 2 % in the
+// peak, .8 to 1.3 % in the potential energy).
+struct Deposits {
+    Sample peak, potential;
+};
+
+Deposits deposits(const gp_material &m, int runs = 24) {
+    Deposits found;
+    for (int k = 0; k < runs; ++k) {
+        // Single grains may tremble on others, and at_rest be 0, at 1 s in one run of ten: up to 2.4e-6 of the energy.
+        const gp_state s = deposit(m, shaken(config(Collapse::length / 8), k), 1, 1e-5);
+        found.peak.add(s.peak_height / Collapse::length);
+        found.potential.add(s.potential / (m.volume_fraction * m.grain_density) * Collapse::density / Collapse::energy);
+    }
+    return found;
+}
+
+gp_material of_friction(double mu) {
     gp_material m = beads();
     m.mu_s = m.mu_2 = mu;
-    return deposit(m);
+    return m;
+}
+
+void expect_same(const Deposits &a, const Deposits &b, double tolerance) {
+    expect_means_near("peak", a.peak, b.peak, tolerance * b.peak.mean());
+    expect_means_near("potential energy", a.potential, b.potential, tolerance * b.potential.mean());
 }
 
 } // namespace
 
-// I = 2 d |gamma| / sqrt(p / rho_s): small grains have the friction mu_s at any rate, large ones mu_2.
+// I = 2 d |gamma| / sqrt(p / rho_s): small grains have the friction mu_s at any rate, large ones mu_2. (At d = 1 m the last
+// creep has an I near i0: the potential energy is still 2.4 +- .4 % short of the limit's.)
 TEST(GrainDiameter, GoesFromOneLimitOfTheLawToTheOther) {
-    std::vector<double> peak;
-    for (const double d : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.}) {
-        SCOPED_TRACE(d);
+    std::vector<Deposits> found;
+    for (const double d : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1., 100.}) {
         gp_material m = beads();
         m.grain_diameter = d;
-        peak.push_back(deposit(m).peak_height);
+        found.push_back(deposits(m));
     }
-    for (std::size_t k = 1; k < peak.size(); ++k)
-        EXPECT_GT(peak[k], 0.98 * peak[k - 1]); // more friction, a higher heap
-    const double weak = deposit_of_friction(std::tan(degrees(21))).peak_height,
-                 strong = deposit_of_friction(std::tan(degrees(32))).peak_height;
-    EXPECT_NEAR(peak.front(), weak, 0.02 * weak);
-    EXPECT_NEAR(peak.back(), strong, 0.02 * strong);
-    EXPECT_GT(strong, 1.05 * weak);
+    for (std::size_t k = 1; k < found.size(); ++k) { // more friction, a higher heap
+        expect_mean_larger("peak", found[k].peak, 0.98, found[k - 1].peak);
+        expect_mean_larger("potential energy", found[k].potential, 0.98, found[k - 1].potential);
+    }
+    const Deposits weak = deposits(of_friction(beads().mu_s)), strong = deposits(of_friction(beads().mu_2));
+    expect_same(found.front(), weak, 0.02);
+    expect_same(found.back(), strong, 0.02);
+    expect_mean_larger("peak", strong.peak, 1.05, weak.peak);
 }
 
 TEST(RateConstant, GoesFromOneLimitOfTheLawToTheOther) {
     gp_material m = beads();
     m.i0 = 1e9;
-    const double weak = deposit(m).peak_height;
-    EXPECT_NEAR(weak, deposit_of_friction(m.mu_s).peak_height, 1e-6 * weak);
-    m.i0 = 1e-9;
-    const double strong = deposit(m).peak_height;
-    EXPECT_NEAR(strong, deposit_of_friction(m.mu_2).peak_height, 0.01 * strong);
+    const double weak = deposit(m).peak_height; // mu differs by 1e-9, and the motion by what that grows to
+    EXPECT_NEAR(weak, deposit(of_friction(m.mu_s)).peak_height, 1e-6 * weak);
+    m.i0 = 1e-9; // the means of 40 runs differ by -.4 +- .2 % in the peak and -.8 +- .2 % in the potential energy
+    expect_same(deposits(m, 40), deposits(of_friction(m.mu_2), 40), 0.015);
 }
 
-// It sets the pressure over rho_s, and so I: nearly nothing is the limit of large I. No friction but that of the law changes.
+// It sets the pressure over rho_s, and so I: next to nothing is the limit of large I (1e-6 is 1.9 +- .4 % short of it). No friction but that of the law changes.
 TEST(VolumeFraction, MayBeOneOrNearlyNothing) {
     gp_material m = beads();
-    m.volume_fraction = 1e-6;
-    const double strong = deposit_of_friction(m.mu_2).peak_height;
-    EXPECT_NEAR(deposit(m).peak_height, strong, 0.02 * strong);
+    m.volume_fraction = 1e-10;
+    expect_same(deposits(m), deposits(of_friction(m.mu_2)), 0.02);
     m.volume_fraction = 1;
-    const double usual = deposit(beads()).peak_height;
-    EXPECT_NEAR(deposit(m).peak_height, usual, 0.02 * usual);
+    expect_same(deposits(m), deposits(beads()), 0.02);
 }
 
 TEST(Materials, OneOfTenIsAsIfItWereAlone) {
@@ -215,9 +237,8 @@ TEST(NoFriction, IsADamBreak) {
 // hydrostatic start: what the release of its pressure tears open has no strength, and the column crumbles to about .8 H. It should
 // stand; what is asserted is what is true: it does not flow out as beads do, and stops.
 TEST(MuchFriction, CrumblesButStops) {
-    gp_material m = beads();
-    m.mu_s = m.mu_2 = 1.5;
-    const gp_state strong = deposit(m, 2), weak = deposit(beads());
+    gp_material m = of_friction(1.5);
+    const gp_state strong = deposit(m, config(Collapse::length / resolution), 2), weak = deposit(beads());
     EXPECT_GT(strong.peak_height, 0.7 * Collapse::height);
     EXPECT_LT(strong.x_right - strong.x_left, 0.9 * (weak.x_right - weak.x_left));
 }
