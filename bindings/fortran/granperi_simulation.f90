@@ -203,7 +203,8 @@ module granperi_simulation
             class(*), pointer, intent(in) :: context
         end subroutine
 
-        module subroutine finalize(self)
+        !> Impure elemental, so that it serves arrays of simulations, too.
+        impure elemental module subroutine finalize(self)
             type(gp_simulation), intent(inout) :: self
         end subroutine
 
