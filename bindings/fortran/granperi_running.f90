@@ -240,13 +240,15 @@ contains
         integer(c_int32_t) :: stop_code
         type(host_procedures), pointer :: host
         type(gp_simulation) :: borrowed
+        class(*), pointer :: context
         logical :: stop_run
         call c_f_pointer(user, host)
+        context => host%step_context
         borrowed%handle = sim
         borrowed%borrowed = .true.
         stop_run = .false.
         host%inside = .true.
-        call host%on_step(borrowed, host%step_context, stop_run)
+        call host%on_step(borrowed, context, stop_run)
         host%inside = .false.
         stop_code = merge(1_c_int32_t, 0_c_int32_t, stop_run)
     end function
@@ -279,8 +281,10 @@ contains
         type(c_ptr), value :: user, text
         integer(c_int32_t), value :: level
         type(host_procedures), pointer :: host
+        class(*), pointer :: context
         call c_f_pointer(user, host)
-        call host%on_log(level, text_of(text), host%log_context)
+        context => host%log_context
+        call host%on_log(level, text_of(text), context)
     end subroutine
 
     module procedure gp_log_to_stderr

@@ -45,11 +45,12 @@ module granperi_simulation
     abstract interface
         !> Called after every so many steps; stop_run is .false. on entry. sim is valid during the call only, and may be
         !> read, written to its output and driven by set_plate_velocity. context: as given to set_callback, else not
-        !> associated; the host's own data, to be unpacked by select type.
+        !> associated; the host's own data, to be unpacked by select type and not to be pointed elsewhere (intent(in) would
+        !> say so, but gfortran 12 then takes what it points to for constant, too).
         subroutine gp_on_step(sim, context, stop_run)
             import :: gp_simulation
             class(gp_simulation), intent(inout) :: sim
-            class(*), pointer, intent(in) :: context
+            class(*), pointer, intent(inout) :: context
             logical, intent(inout) :: stop_run
         end subroutine
 
@@ -58,7 +59,7 @@ module granperi_simulation
             import :: c_int32_t
             integer(c_int32_t), intent(in) :: level
             character(*), intent(in) :: text
-            class(*), pointer, intent(in) :: context
+            class(*), pointer, intent(inout) :: context
         end subroutine
     end interface
 
@@ -200,7 +201,7 @@ module granperi_simulation
         module subroutine gp_log_to_stderr(level, text, context)
             integer(c_int32_t), intent(in) :: level
             character(*), intent(in) :: text
-            class(*), pointer, intent(in) :: context
+            class(*), pointer, intent(inout) :: context
         end subroutine
 
         !> Impure elemental, so that it serves arrays of simulations, too.

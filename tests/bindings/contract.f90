@@ -171,7 +171,7 @@ contains
 
     subroutine look(sim, context, stop_run)
         class(gp_simulation), intent(inout) :: sim
-        class(*), pointer, intent(in) :: context
+        class(*), pointer, intent(inout) :: context
         logical, intent(inout) :: stop_run
         type(gp_state) :: state
         integer :: status
@@ -193,7 +193,7 @@ contains
 
     subroutine look_without(sim, context, stop_run)
         class(gp_simulation), intent(inout) :: sim
-        class(*), pointer, intent(in) :: context
+        class(*), pointer, intent(inout) :: context
         logical, intent(inout) :: stop_run
         stop_run = .not. associated(context)
     end subroutine
@@ -201,7 +201,7 @@ contains
     subroutine listen(level, text, context)
         integer(c_int32_t), intent(in) :: level
         character(*), intent(in) :: text
-        class(*), pointer, intent(in) :: context
+        class(*), pointer, intent(inout) :: context
         select type (context)
         type is (heard)
             context%texts = context%texts + 1
@@ -247,7 +247,7 @@ contains
     contains
         subroutine of_the_host(simulation, context, stop_run)
             class(gp_simulation), intent(inout) :: simulation
-            class(*), pointer, intent(in) :: context
+            class(*), pointer, intent(inout) :: context
             logical, intent(inout) :: stop_run
             integer :: answer
             inside = inside + 1

@@ -48,7 +48,7 @@ contains
     !> The lid sinks faster and faster: 4 m/s2.
     subroutine drive_lid(sim, context, stop_run)
         class(gp_simulation), intent(inout) :: sim
-        class(*), pointer, intent(in) :: context
+        class(*), pointer, intent(inout) :: context
         logical, intent(inout) :: stop_run
         type(gp_state) :: state
         state = sim%state()
