@@ -103,9 +103,10 @@ int main(int argc, char **argv) {
     block b;
 
     options.lift_time = NAN;
-    example_parse(argc, argv,
-                  "A column, 0.08 m wide and 0.10 m high, collapses and its flow pushes a block. Reference length: 0.08 m.",
-                  &options, &size_option);
+    example_parse(
+        argc, argv,
+        "A column, 0.08 m wide and 0.10 m high, collapses and its flow pushes a block. Reference length: 0.08 m.",
+        &options, &size_option);
     spacing = width / options.resolution;
     sim = example_create(&options, spacing, 0.002);
     CHECK(gp_column_init(&column, sizeof column));
