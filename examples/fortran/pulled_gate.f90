@@ -116,7 +116,11 @@ program pulled_gate
         end if
         if (state%time >= options%end) exit
     end do
-    print "(a, t21, g0.6, a)", "gate_clear_at", opened, " s"
+    if (opened < 0) then
+        print "(a)", "gate_clear_at       never: the run ended before"
+    else
+        print "(a, t21, g0.6, a)", "gate_clear_at", opened, " s"
+    end if
     print "(a, t21, g0.6, a)", "without_grains", sqrt(2*p%clear*(p%gate_mass + p%weight_mass) &
                                                        /((p%weight_mass - p%gate_mass)*p%gravity)), " s"
     print "(a, t21, g0.6, a)", "largest_thrust", largest_thrust, " N/m"
