@@ -9,7 +9,7 @@ program overhead
     use granperi_raw, only: gp_create, gp_add_plate, gp_step, gp_get_state, gp_get_plate_load, gp_set_plate_velocity, &
                             gp_destroy
     implicit none
-    integer, parameter :: steps = 100000, rounds = 15
+    integer, parameter :: steps = 20000, rounds = 15
     type(gp_simulation) :: sim
     type(gp_state) :: state
     type(gp_load) :: load
