@@ -135,16 +135,13 @@ std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid 
             continue;
         const double allowed = penetration_allowed * std::sqrt(particles.volume);
         bool behind = false;
-        // The square that holds the plate's box; runs outside the box are narrowed by the test below.
-        const double half = 0.5 * std::max(box.x_max - box.x_min, box.y_max - box.y_min);
-        grid.for_each_run(0.5 * (box.x_min + box.x_max), 0.5 * (box.y_min + box.y_max), half,
-                          [&](int64_t begin, int64_t end) {
-                              for (int64_t i = begin; i < end && !behind; ++i) {
-                                  const Vector r(particles.x[i], particles.y[i]);
-                                  const double d = s.distance(r), along = s.along(r);
-                                  behind = d < -allowed && d > -radius && along > -radius && along < s.length + radius;
-                              }
-                          });
+        grid.for_each_run(box, [&](int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end && !behind; ++i) {
+                const Vector r(particles.x[i], particles.y[i]);
+                const double d = s.distance(r), along = s.along(r);
+                behind = d < -allowed && d > -radius && along > -radius && along < s.length + radius;
+            }
+        });
         if (behind)
             found.push_back(s);
     }
