@@ -107,8 +107,9 @@ Box box_around(const Segment &s, double margin) {
 
 // A plate, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long
 // segment, that begins a period before its end 0.
-std::vector<Walls::Nearby> Walls::images_of_plates() const {
-    std::vector<Nearby> all;
+const std::vector<Walls::Nearby> &Walls::images_of_plates() {
+    std::vector<Nearby> &all = images_;
+    all.clear();
     for (std::size_t p = 0; p < plates.size(); ++p) {
         const Segment &s = plates[p].segment();
         const auto id = static_cast<int32_t>(p);
@@ -126,8 +127,9 @@ std::vector<Walls::Nearby> Walls::images_of_plates() const {
     return all;
 }
 
-std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) const {
-    std::vector<Segment> found;
+const std::vector<Segment> &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
+    std::vector<Segment> &found = barriers_;
+    found.clear();
     for (const Nearby &image : images_of_plates()) {
         const Segment &s = image.segment;
         const Box box = box_around(s, radius);
