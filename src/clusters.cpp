@@ -47,8 +47,7 @@ void cut(const Particles &p, const CellGrid &grid, double radius, ClusterList &l
 
 // Calls body(begin, end, side) for the runs of candidates about a cluster: of particles (side -1) and of those whose images
 // on a side of the period count.
-template <class Body>
-void for_each_run(const CellGrid &grid, const Images &images, const Box &box, const Body &body) {
+template <class Body> void for_each_run(const CellGrid &grid, const Images &images, const Box &box, const Body &body) {
     grid.for_each_run(box, [&](int64_t begin, int64_t end) { body(begin, end, -1); });
     if (images.count == 0)
         return;

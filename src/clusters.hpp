@@ -19,7 +19,8 @@ struct ClusterList {
     Field<int32_t> first;
     Field<int64_t> start, close_stop, stop;
     Field<int32_t> index;
-    Field<int32_t> cluster_of_block; // the first one of each block of particles; clusters do not reach over a block's end
+    Field<int32_t>
+        cluster_of_block; // the first one of each block of particles; clusters do not reach over a block's end
 
     // Where plates have material behind them: which lanes see an entry, bit by bit, in the rows of partly_seen clusters.
     Field<uint8_t> partly_seen;

@@ -196,8 +196,9 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         field_entry("stressed", t.penalty,
                     t.penalty ? "the zero-energy penalty acts on stressed material" : "zero_energy_penalty is 0",
                     bytes_of(p.stressed)));
-    entries.push_back(field_entry(
-        "flowing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0", bytes_of(p.flowing)));
+    entries.push_back(field_entry("flowing", t.diffusion,
+                                  t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0",
+                                  bytes_of_all(p.flowing, p.bearing)));
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));

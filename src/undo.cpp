@@ -87,7 +87,7 @@ void undo_step(World &world) {
     StepStart &start = world.step_start;
     if (start.fields_kept) {
         const auto changed = fields_changed_in_place(world);
-    const auto made = fields_made_anew(world);
+        const auto made = fields_made_anew(world);
         for (std::size_t k = 0; k < changed.size(); ++k)
             std::copy(start.copied[k].begin(), start.copied[k].end(), changed[k]->begin());
         for (std::size_t k = 0; k < made.size(); ++k)

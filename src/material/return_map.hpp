@@ -9,9 +9,7 @@
 namespace gp {
 
 // Deviatoric stress in two dimensions: sxx = -syy and sxy. Pa. Number: double, or Lanes for four particles at once.
-template <class Number> struct DeviatorOf {
-    Number xx, xy;
-};
+template <class Number> struct DeviatorOf { Number xx, xy; };
 using Deviator = DeviatorOf<double>;
 
 GP_INLINE double equivalent_stress(const Deviator &s) {

@@ -70,7 +70,7 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
             continue;
         const LanePlaces places(first, last);
         const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
-        Lanes own, partners;
+        Lanes own{}, partners{};
         for (int l = 0; l < lane_count; ++l) {
             own[l] = v.density(places.at[l]);
             partners[l] = v.colliding[places.at[l]];
@@ -87,7 +87,8 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
             const double other = v.density(j), others = v.colliding[j];
             const Lanes most = choose(partners > others, partners, Lanes{} + others);
             // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
-            Lanes impulse = where(approach > 0.0, where(r2 < v.distance2, approach * other / ((own + other) * most * r2)));
+            Lanes impulse =
+                where(approach > 0.0, where(r2 < v.distance2, approach * other / ((own + other) * most * r2)));
             if (partly)
                 impulse = v.clusters.seen(impulse, k);
             du -= impulse * dx;
@@ -106,17 +107,10 @@ void collide(World &world) {
     const double dt = world.clock.dt;
     update_images(world);
     // sigma K^-1 has done its work: its first row holds the velocity changes.
-    const View view{Clusters(world),
-                    p.x.data(),
-                    p.y.data(),
-                    p.vx.data(),
-                    p.vy.data(),
-                    distance * distance,
-                    &world.constants,
-                    p.column.data(),
-                    world.colliding.data(),
-                    p.cxx.data(),
-                    p.cxy.data()};
+    const View view{Clusters(world),  p.x.data(),      p.y.data(),
+                    p.vx.data(),      p.vy.data(),     distance * distance,
+                    &world.constants, p.column.data(), world.colliding.data(),
+                    p.cxx.data(),     p.cxy.data()};
     for_each_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;

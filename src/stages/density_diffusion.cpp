@@ -36,11 +36,12 @@ ExchangeView prepare_exchange(World &world) {
     const bool one = std::all_of(c.body_material.begin(), c.body_material.end(),
                                  [&](int32_t material) { return c.materials[material].density == first; });
     // sigma K^-1 is made later in the step: until then it holds what is needed here.
-    Field<double> &excess = p.cxy, &rest = p.cyx, &inverse_rest = p.cyy;
+    Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.cyx, &inverse_rest = p.cyy;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);
             excess[i] = p.density[i] - m.density;
+            bears[i] = excess[i] > 0 ? 1.0 : 0.0;
             if (!one) {
                 rest[i] = m.density;
                 inverse_rest[i] = 1.0 / m.density;
@@ -49,12 +50,13 @@ ExchangeView prepare_exchange(World &world) {
             p.flowing[i] = flows ? 1.0 : 0.0;
         }
     });
-    world.images.copy({&excess, &p.flowing, &p.density});
+    world.images.copy({&excess, &bears, &p.flowing, &p.density});
     if (!one)
         world.images.copy({&rest, &inverse_rest});
     return {p.density.data(),
             excess.data(),
             p.flowing.data(),
+            bears.data(),
             rest.data(),
             inverse_rest.data(),
             world.scene->config().density_diffusion * c.sound_speed * c.spacing * world.clock.dt * 2.0 /

@@ -8,8 +8,9 @@
 namespace gp::stages {
 
 struct ExchangeView {
-    const double *density, *excess, *flowing; // excess over the material's own density; flowing: 1 or 0
-    const double *rest, *inverse_rest;        // the material's own density; only where there are several
+    const double *density, *excess;    // excess over the material's own density
+    const double *flowing, *bears;     // 1 or 0: at yield or stress-free; under pressure
+    const double *rest, *inverse_rest; // the material's own density; only where there are several
     double rate;
     double hydrostatic_x, hydrostatic_y; // g / c0^2, 1/m
     double largest_pace;                 // sum of w
@@ -37,15 +38,15 @@ struct NoExchange {
 };
 
 template <bool OneDensity> struct Exchange {
-    const double *__restrict density, *__restrict excess, *__restrict flowing, *__restrict rest,
-        *__restrict inverse_rest;
-    Lanes own, own_density, own_rest, own_inverse, stretched;
+    const double *__restrict density, *__restrict excess, *__restrict flowing, *__restrict bears;
+    const double *__restrict rest, *__restrict inverse_rest;
+    Lanes own, own_density, own_rest{}, own_inverse{}, stretched{};
     Lanes half_x, half_y; // weight counts between particles that both bear some
     Lanes sum{}, pace{};
 
     GP_INLINE Exchange(const ExchangeView &v, const LanePlaces &places)
-        : density(v.density), excess(v.excess), flowing(v.flowing), rest(v.rest), inverse_rest(v.inverse_rest),
-          own(places.load(v.excess)), own_density(places.load(v.density)) {
+        : density(v.density), excess(v.excess), flowing(v.flowing), bears(v.bears), rest(v.rest),
+          inverse_rest(v.inverse_rest), own(places.load(v.excess)), own_density(places.load(v.density)) {
         const Lanes zero{};
         half_x = where(own > 0.0, zero + 0.5 * v.hydrostatic_x);
         half_y = where(own > 0.0, zero + 0.5 * v.hydrostatic_y);
@@ -59,12 +60,10 @@ template <bool OneDensity> struct Exchange {
     GP_INLINE void add(int32_t j, const Lanes &weight, const Lanes &dx, const Lanes &dy) {
         const Lanes w = weight * flowing[j];
         const double other = excess[j];
-        const Lanes along = half_x * dx + half_y * dy;
-        const double bears = other > 0 ? 1.0 : 0.0;
-        const Lanes borne = bears * (own_density + density[j]);
+        const Lanes borne = (own_density + density[j]) * bears[j] * (half_x * dx + half_y * dy);
         if (OneDensity) {
             pace += w;
-            sum += w * (other - own - borne * along);
+            sum += w * (other - own - borne);
             return;
         }
         // The denser one's pace is stable. Stretched material counts in the lighter one's measure.
@@ -74,7 +73,7 @@ template <bool OneDensity> struct Exchange {
         const Lanes there = other < 0 ? other * other_inverse * lighter : Lanes{} + other;
         const Lanes here = own < 0.0 ? stretched * lighter : own;
         pace += share * w;
-        sum += share * w * (there - here - borne * along);
+        sum += share * w * (there - here - borne);
     }
 
     GP_INLINE void finish(const ExchangeView &v, int64_t i, int lane) const {

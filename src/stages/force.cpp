@@ -163,20 +163,9 @@ void force(World &world) {
     Walls &walls = world.walls;
     walls.clear_loads();
     const Constants &c = world.constants;
-    const View view{Clusters(world),
-                    p.x.data(),
-                    p.y.data(),
-                    p.vx.data(),
-                    p.vy.data(),
-                    p.stressed.data(),
-                    p.cxx.data(),
-                    p.cxy.data(),
-                    p.cyx.data(),
-                    p.cyy.data(),
-                    1.0 / c.horizon,
-                    c.penalty,
-                    p.ax.data(),
-                    p.ay.data()};
+    const View view{Clusters(world),   p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),
+                    p.stressed.data(), p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(),
+                    1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data()};
     const bool in_reach = walls.in_reach();
     if (in_reach) {
         const WallView wall{p.x.data(),

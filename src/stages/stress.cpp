@@ -40,7 +40,7 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         world.scene->config().bulk_viscosity * world.constants.sound_speed * world.constants.spacing;
     const bool near_plates = world.walls.in_reach();
     Lanes plastic{}, internal{}, damped{};
-    MaterialLanes material;
+    MaterialLanes material{};
     if (one_material)
         material.set(world.constants, p.column.data(), LanePlaces(begin, end));
     for (int64_t first = begin; first < end; first += lane_count) {
@@ -124,8 +124,8 @@ void stress(World &world) {
     Particles &p = world.particles;
     const auto rows = world.constants.penalty > 0 ? penalty_rows : plain_rows;
     const std::vector<int32_t> &materials = world.constants.body_material;
-    const bool one_material = std::all_of(materials.begin(), materials.end(),
-                                          [&](int32_t material) { return material == materials[0]; });
+    const bool one_material =
+        std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         StressSums of_block;
         rows(world, one_material, begin, end, of_block);
