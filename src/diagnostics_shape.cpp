@@ -27,16 +27,18 @@ std::vector<char> connected_deposit(const World &world) {
     std::vector<int32_t> parent(p.count);
     std::iota(parent.begin(), parent.end(), 0);
     const double link = link_distance * world.constants.spacing, link2 = link * link;
-    for (int64_t place = 0; place < p.count; ++place) {
-        const auto i = static_cast<int32_t>(world.particle_listed_at(place));
-        for (int64_t k = world.neighbors.start[place]; k < world.neighbors.start[place + 1]; ++k) {
-            const int64_t near = world.particle_listed_at(world.neighbors.index[k]);
-            const double dx = p.x[near] - p.x[i], dy = p.y[near] - p.y[i];
-            const auto j = static_cast<int32_t>(world.images.source(near));
-            if (j > i && dx * dx + dy * dy < link2)
-                parent[root_of(parent, i)] = root_of(parent, j);
+    const ClusterList &clusters = world.clusters;
+    for (int64_t c = 0; c < clusters.count(); ++c)
+        for (int64_t place = clusters.first[c]; place < clusters.first[c + 1]; ++place) {
+            const auto i = static_cast<int32_t>(world.particle_listed_at(place));
+            for_each_seen(clusters, c, place, [&](int32_t there) {
+                const int64_t near = world.particle_listed_at(there);
+                const double dx = p.x[near] - p.x[i], dy = p.y[near] - p.y[i];
+                const auto j = static_cast<int32_t>(world.images.source(near));
+                if (j > i && dx * dx + dy * dy < link2)
+                    parent[root_of(parent, i)] = root_of(parent, j);
+            });
         }
-    }
     std::vector<int32_t> size(p.count, 0);
     std::vector<int64_t> smallest_id(p.count, INT64_MAX);
     for (int32_t i = 0; i < p.count; ++i) {

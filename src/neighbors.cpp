@@ -8,7 +8,7 @@
 
 namespace gp {
 
-void CellGrid::sort(Particles &particles, double cell_size, int threads) {
+void CellGrid::sort(Particles &particles, double cell_width, double cell_height, int threads) {
     const int64_t n = particles.count;
     count_ = n;
     if (n == 0)
@@ -18,11 +18,13 @@ void CellGrid::sort(Particles &particles, double cell_size, int threads) {
     box_ = {*x_low, *x_high, *y_low, *y_high};
     // A box too wide to number its cells gets wider cells: still right, only slower.
     const double widest = std::max(box_.x_max - box_.x_min, box_.y_max - box_.y_min);
-    inverse_size_ = 1.0 / std::max(cell_size, widest / 1e9);
-    const double cells = widest * inverse_size_;
-    if (!(cells < 2e9 && inverse_size_ > 0))
-        throw make_error(GP_E_DIVERGED, "particles from (%g, %g) to (%g, %g) m cannot be sorted into cells of %g m",
-                         box_.x_min, box_.y_min, box_.x_max, box_.y_max, cell_size);
+    inverse_width_ = 1.0 / std::max(cell_width, widest / 1e9);
+    inverse_height_ = 1.0 / std::max(cell_height, widest / 1e9);
+    const double cells = widest * std::max(inverse_width_, inverse_height_);
+    if (!(cells < 2e9 && inverse_width_ > 0 && inverse_height_ > 0))
+        throw make_error(GP_E_DIVERGED,
+                         "particles from (%g, %g) to (%g, %g) m cannot be sorted into cells of %g x %g m", box_.x_min,
+                         box_.y_min, box_.x_max, box_.y_max, cell_width, cell_height);
     columns_ = column_of(box_.x_max) + 1;
     rows_ = row_of(box_.y_max) + 1;
 
@@ -68,67 +70,6 @@ int64_t CellGrid::run_begin(int64_t cell) const {
 int64_t CellGrid::bytes() const {
     return static_cast<int64_t>((start_.capacity() + order_.capacity()) * sizeof(int32_t) +
                                 (key_.capacity() + unsorted_.capacity()) * sizeof(int64_t));
-}
-
-namespace {
-
-bool separated(const std::vector<Segment> &barriers, const Vector &a, const Vector &b, double tolerance) {
-    for (const Segment &barrier : barriers)
-        if (crossing(barrier, a, b, tolerance) >= 0 || crossing(barrier, b, a, tolerance) >= 0)
-            return true;
-    return false;
-}
-
-} // namespace
-
-void find_neighbors(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                    double close_radius, const std::vector<Segment> &barriers, double tolerance, int threads,
-                    NeighborList &list) {
-    const int64_t n = particles.count;
-    const double *x = particles.x.data(), *y = particles.y.data();
-    const double radius2 = radius * radius, close2 = close_radius * close_radius;
-
-    // Calls found(j, r^2) for the neighbours of i in sorted order.
-    const auto visit = [&](int64_t i, const auto &found) {
-        for_each_candidate(grid, images, x[i], y[i], radius, [&](int64_t j) {
-            const double dx = x[j] - x[i], dy = y[j] - y[i];
-            const double r2 = dx * dx + dy * dy;
-            if (r2 < radius2 && j != i &&
-                (barriers.empty() || !separated(barriers, {x[i], y[i]}, {x[j], y[j]}, tolerance)))
-                found(j, r2);
-        });
-    };
-
-    list.start.resize(n + 1);
-    list.close_count.resize(n);
-    list.start[0] = 0;
-    for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t i = begin; i < end; ++i) {
-            int64_t all = 0;
-            int32_t close = 0;
-            visit(i, [&](int64_t, double r2) {
-                ++all;
-                close += r2 < close2;
-            });
-            list.start[i + 1] = all;
-            list.close_count[i] = close;
-        }
-    });
-    std::partial_sum(list.start.begin(), list.start.end(), list.start.begin());
-    if (static_cast<int64_t>(list.index.size()) < list.start[n])
-        list.index.resize(list.start[n] + list.start[n] / 8); // room, so that later lists of about this size fit
-    for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t i = begin; i < end; ++i) {
-            int32_t *close = list.index.data() + list.start[i];
-            int32_t *others = close + list.close_count[i];
-            visit(i, [&](int64_t j, double r2) {
-                if (r2 < close2)
-                    *close++ = static_cast<int32_t>(j);
-                else
-                    *others++ = static_cast<int32_t>(j);
-            });
-        }
-    });
 }
 
 } // namespace gp

@@ -1,7 +1,6 @@
-// Cell sort and neighbour lists with a skin.
+// Cell sort, and the form of neighbour lists.
 //
-// Particles are sorted by cell, row by row, so that the candidates of one row of cells are one run of memory. Each
-// particle's list begins with its close neighbours (those that may collide), then the others, each in sorted order.
+// Particles are sorted by cell, row by row, so that the candidates of one row of cells are one run of memory.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry.hpp"
 #include "particles.hpp"
 #include "periodic.hpp"
 
@@ -30,19 +28,18 @@ struct Box {
 class CellGrid {
 public:
     // Sorts the particles (their carried fields are reordered) into cells of the given size. The sort is stable.
-    void sort(Particles &particles, double cell_size, int threads);
+    void sort(Particles &particles, double cell_width, double cell_height, int threads);
 
     const Box &box() const { return box_; }
     const Field<int32_t> &order() const { return order_; } // of the last sort: sorted position -> old position
     int64_t bytes() const;
 
-    // Calls body(begin, end) for the run of particles in each row of cells that the square of half width `radius` about
-    // (x, y) touches.
-    template <class Body> void for_each_run(double x, double y, double radius, const Body &body) const {
+    // Calls body(begin, end) for the run of particles in each row of cells that the box touches.
+    template <class Body> void for_each_run(const Box &box, const Body &body) const {
         if (count_ == 0)
             return;
-        const int64_t left = column_of(x - radius), right = column_of(x + radius);
-        const int64_t bottom = row_of(y - radius), top = row_of(y + radius);
+        const int64_t left = column_of(box.x_min), right = column_of(box.x_max);
+        const int64_t bottom = row_of(box.y_min), top = row_of(box.y_max);
         if (right < 0 || left >= columns_ || top < 0 || bottom >= rows_)
             return;
         for (int64_t row = bottom < 0 ? 0 : bottom; row <= (top < rows_ ? top : rows_ - 1); ++row) {
@@ -52,13 +49,14 @@ public:
         }
     }
 
+    int64_t column_of(double x) const { return static_cast<int64_t>(std::floor((x - box_.x_min) * inverse_width_)); }
+    int64_t row_of(double y) const { return static_cast<int64_t>(std::floor((y - box_.y_min) * inverse_height_)); }
+
 private:
-    int64_t column_of(double x) const { return static_cast<int64_t>(std::floor((x - box_.x_min) * inverse_size_)); }
-    int64_t row_of(double y) const { return static_cast<int64_t>(std::floor((y - box_.y_min) * inverse_size_)); }
     int64_t run_begin(int64_t cell) const; // first particle whose cell is not before this one
 
     Box box_;
-    double inverse_size_ = 0;
+    double inverse_width_ = 0, inverse_height_ = 0;
     int64_t columns_ = 0, rows_ = 0, count_ = 0;
     Field<int32_t> start_; // table of cells, when it is small enough
     Field<int64_t> key_;   // cell of each sorted particle, for the search otherwise
@@ -70,36 +68,32 @@ private:
 template <class Found>
 void for_each_candidate(const CellGrid &grid, const Images &images, double x, double y, double radius,
                         const Found &found) {
-    grid.for_each_run(x, y, radius, [&](int64_t begin, int64_t end) {
+    const Box box{x - radius, x + radius, y - radius, y + radius};
+    grid.for_each_run(box, [&](int64_t begin, int64_t end) {
         for (int64_t j = begin; j < end; ++j)
             found(j);
     });
     if (images.count == 0)
         return;
-    for (int side = 0; side < 2; ++side)
-        grid.for_each_run(x - images.shift(side), y, radius, [&](int64_t begin, int64_t end) {
-            for (int64_t j = begin; j < end; ++j)
-                if (const int32_t image = images.image_of(j, side); image >= 0)
-                    found(image);
-        });
+    for (int side = 0; side < 2; ++side) {
+        const double shift = images.shift(side);
+        grid.for_each_run({box.x_min - shift, box.x_max - shift, box.y_min, box.y_max},
+                          [&](int64_t begin, int64_t end) {
+                              for (int64_t j = begin; j < end; ++j)
+                                  if (const int32_t image = images.image_of(j, side); image >= 0)
+                                      found(image);
+                          });
+    }
 }
 
 // Rows of neighbour indices: entries of row i are index[start[i]] .. index[start[i + 1]].
 struct NeighborList {
     Field<int64_t> start;
-    Field<int32_t> close_count; // how many of the row may collide
     Field<int32_t> index;
 
     int64_t bytes() const {
-        return static_cast<int64_t>(start.capacity() * sizeof(int64_t) + close_count.capacity() * sizeof(int32_t) +
-                                    index.capacity() * sizeof(int32_t));
+        return static_cast<int64_t>(start.capacity() * sizeof(int64_t) + index.capacity() * sizeof(int32_t));
     }
 };
-
-// Finds, for every particle, the neighbours within `radius`, of which those within `close_radius` come first. Pairs on
-// both sides of one of `barriers` (plates with material behind them) do not see each other.
-void find_neighbors(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                    double close_radius, const std::vector<Segment> &barriers, double tolerance, int threads,
-                    NeighborList &list);
 
 } // namespace gp

@@ -21,8 +21,10 @@ void Particles::allocate(int64_t n, const Optional &use) {
         stressed.resize(size);
     if (use.carried)
         carried.resize(size, 1.0);
-    if (use.flowing)
+    if (use.flowing) {
         flowing.resize(size);
+        bearing.resize(size);
+    }
     scratch_int64_.resize(size);
     scratch_int32_.resize(size);
 }
@@ -39,9 +41,9 @@ void Particles::make_room(int64_t images) {
     grow(column);
     grow(scratch_int32_);
     // The gradient and its like are not read of neighbours, but swap their memory with fields that are.
-    for (Field<double> *field :
-         {&x,   &y,   &vx,  &vy,  &density, &pressure, &sxx, &sxy,      &lxx,     &lxy,
-          &lyx, &lyy, &cxx, &cxy, &cyx,     &cyy,      &syy, &stressed, &flowing, &scratch_double_})
+    for (Field<double> *field : {&x,   &y,   &vx,  &vy,       &density, &pressure, &sxx,
+                                 &sxy, &lxx, &lxy, &lyx,      &lyy,     &cxx,      &cxy,
+                                 &cyx, &cyy, &syy, &stressed, &flowing, &bearing,  &scratch_double_})
         grow(*field);
 }
 

@@ -43,7 +43,7 @@ struct Particles {
     Field<double> cxx, cxy, cyx, cyy; // sigma K^-1, less the penalty's half of L: what a neighbour needs of a particle
     Field<double> stressed;           // 1 where p > 0 and the penalty acts, else 0; only with the penalty
     Field<double> carried;            // share of its stress that a particle near a plate carries; only with plates
-    Field<double> flowing;            // 1 at yield or without stress, else 0; only with density diffusion
+    Field<double> flowing, bearing;   // 1 at yield or without stress; 1 under pressure; only with density diffusion
     Field<double> ax, ay;             // m/s2, by the forces
     Field<double> push_x, push_y;     // m/s, by collisions and contacts with plates after that
 

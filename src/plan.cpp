@@ -58,9 +58,12 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads velocity; writes ghost velocity
         {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_velocity, in_reach, none_near},
-        // reads position, velocity; writes shape tensor, velocity gradient
-        {"gradient", t.particles, "particles interact", no_particles, stages::gradient, nullptr, ""},
-        // reads density, shape tensor; writes density
+        // reads position, velocity; writes shape tensor, velocity gradient; with density diffusion also reads density and
+        // stress, and writes what is exchanged: one loop over pairs for both
+        {"gradient", t.particles, t.diffusion ? "particles interact; with the pair sums of density_diffusion"
+                                              : "particles interact",
+         no_particles, t.diffusion ? stages::gradient_and_exchange : stages::gradient, nullptr, ""},
+        // reads what is exchanged; writes density
         {"density_diffusion", t.particles && t.diffusion, "density_diffusion > 0", "density_diffusion is 0",
          stages::density_diffusion, nullptr, ""},
         // reads velocity gradient; writes density, pressure
@@ -193,8 +196,9 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         field_entry("stressed", t.penalty,
                     t.penalty ? "the zero-energy penalty acts on stressed material" : "zero_energy_penalty is 0",
                     bytes_of(p.stressed)));
-    entries.push_back(field_entry(
-        "flowing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0", bytes_of(p.flowing)));
+    entries.push_back(field_entry("flowing", t.diffusion,
+                                  t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0",
+                                  bytes_of_all(p.flowing, p.bearing)));
     const bool flights = t.plates && !by_number_density(t.scheme);
     entries.push_back(field_entry("carried", flights,
                                   flights     ? "grains in flight above a plate carry no stress"
@@ -211,7 +215,9 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         kept += bytes_of(field);
     optional("kept_fields", true, "a step that diverges is taken back", "", kept);
     common("cells", world.grid.bytes());
-    common("neighbor_lists", world.neighbors.bytes());
+    common("clusters", world.clusters.bytes());
+    optional("neighbor_lists", t.scheme != Scheme::adjoint, "operators on single particles",
+             "the default scheme's operators work on clusters", world.neighbors.bytes());
     entries.push_back(field_entry("images", t.particles && t.periodic,
                                   t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
                                   world.images.bytes()));

@@ -1,6 +1,8 @@
 #include "undo.hpp"
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 
 #include "parallel.hpp"
 
@@ -8,18 +10,34 @@ namespace gp {
 
 namespace {
 
-std::vector<Field<double> *> fields_changed_in_place(World &world) {
+// A list without memory of its own: it is made in every step.
+struct FieldList {
+    std::array<Field<double> *, 9> field{};
+    std::size_t count = 0;
+
+    void add(std::initializer_list<Field<double> *> more) {
+        for (Field<double> *one : more)
+            field[count++] = one;
+    }
+    std::size_t size() const { return count; }
+    Field<double> *operator[](std::size_t k) const { return field[k]; }
+    Field<double> *const *begin() const { return field.data(); }
+    Field<double> *const *end() const { return field.data() + count; }
+};
+
+FieldList fields_changed_in_place(World &world) {
     Particles &p = world.particles;
-    std::vector<Field<double> *> fields{&p.density, &p.pressure, &p.sxx, &p.sxy};
+    FieldList fields;
+    fields.add({&p.density, &p.pressure, &p.sxx, &p.sxy});
     const Scheme scheme = world.constants.scheme;
     if (scheme != Scheme::adjoint) // particles move before all of the step is known
-        fields.insert(fields.end(), {&p.x, &p.y, &p.vx, &p.vy});
+        fields.add({&p.x, &p.y, &p.vx, &p.vy});
     if (by_number_density(scheme))
-        fields.push_back(&p.syy);
+        fields.add({&p.syy});
     return fields;
 }
 
-std::vector<Field<double> *> fields_made_anew(World &world) {
+std::array<Field<double> *, 4> fields_made_anew(World &world) {
     Particles &p = world.particles;
     return {&p.lxx, &p.lxy, &p.lyx, &p.lyy};
 }
@@ -48,7 +66,8 @@ void begin_step(World &world) {
 
 void keep_fields(World &world) {
     StepStart &start = world.step_start;
-    const std::vector<Field<double> *> changed = fields_changed_in_place(world), made = fields_made_anew(world);
+    const auto changed = fields_changed_in_place(world);
+    const auto made = fields_made_anew(world);
     start.copied.resize(changed.size());
     start.made.resize(made.size());
     for (std::size_t k = 0; k < changed.size(); ++k)
@@ -67,7 +86,8 @@ void keep_fields(World &world) {
 void undo_step(World &world) {
     StepStart &start = world.step_start;
     if (start.fields_kept) {
-        const std::vector<Field<double> *> changed = fields_changed_in_place(world), made = fields_made_anew(world);
+        const auto changed = fields_changed_in_place(world);
+        const auto made = fields_made_anew(world);
         for (std::size_t k = 0; k < changed.size(); ++k)
             std::copy(start.copied[k].begin(), start.copied[k].end(), changed[k]->begin());
         for (std::size_t k = 0; k < made.size(); ++k)

@@ -107,8 +107,9 @@ Box box_around(const Segment &s, double margin) {
 
 // A plate, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long
 // segment, that begins a period before its end 0.
-std::vector<Walls::Nearby> Walls::images_of_plates() const {
-    std::vector<Nearby> all;
+const std::vector<Walls::Nearby> &Walls::images_of_plates() {
+    std::vector<Nearby> &all = images_;
+    all.clear();
     for (std::size_t p = 0; p < plates.size(); ++p) {
         const Segment &s = plates[p].segment();
         const auto id = static_cast<int32_t>(p);
@@ -126,8 +127,9 @@ std::vector<Walls::Nearby> Walls::images_of_plates() const {
     return all;
 }
 
-std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) const {
-    std::vector<Segment> found;
+const std::vector<Segment> &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
+    std::vector<Segment> &found = barriers_;
+    found.clear();
     for (const Nearby &image : images_of_plates()) {
         const Segment &s = image.segment;
         const Box box = box_around(s, radius);
@@ -135,16 +137,13 @@ std::vector<Segment> Walls::barriers(const Particles &particles, const CellGrid 
             continue;
         const double allowed = penetration_allowed * std::sqrt(particles.volume);
         bool behind = false;
-        // The square that holds the plate's box; runs outside the box are narrowed by the test below.
-        const double half = 0.5 * std::max(box.x_max - box.x_min, box.y_max - box.y_min);
-        grid.for_each_run(0.5 * (box.x_min + box.x_max), 0.5 * (box.y_min + box.y_max), half,
-                          [&](int64_t begin, int64_t end) {
-                              for (int64_t i = begin; i < end && !behind; ++i) {
-                                  const Vector r(particles.x[i], particles.y[i]);
-                                  const double d = s.distance(r), along = s.along(r);
-                                  behind = d < -allowed && d > -radius && along > -radius && along < s.length + radius;
-                              }
-                          });
+        grid.for_each_run(box, [&](int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end && !behind; ++i) {
+                const Vector r(particles.x[i], particles.y[i]);
+                const double d = s.distance(r), along = s.along(r);
+                behind = d < -allowed && d > -radius && along > -radius && along < s.length + radius;
+            }
+        });
         if (behind)
             found.push_back(s);
     }

@@ -118,7 +118,7 @@ struct Walls {
     int64_t bytes() const;
 
     // Plates with material right behind them: pairs of particles do not interact through these.
-    std::vector<Segment> barriers(const Particles &particles, const CellGrid &grid, double radius) const;
+    const std::vector<Segment> &barriers(const Particles &particles, const CellGrid &grid, double radius);
 
     // Finds ghosts and contacts within `radius` of the sorted particles.
     void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
@@ -141,7 +141,7 @@ private:
         double shift;  // m, of the image
         double before; // m, from where the segment begins to end 0
     };
-    std::vector<Nearby> images_of_plates() const;
+    const std::vector<Nearby> &images_of_plates();
     void find_nearby(const Particles &particles, const CellGrid &grid, double radius);
     void place_candidates(const CellGrid &grid, double radius, double spacing);
 
@@ -151,7 +151,8 @@ private:
         int64_t neighbors; // particles and images that see it
         bool seen;         // by a particle
     };
-    std::vector<Nearby> nearby_;
+    std::vector<Nearby> nearby_, images_;
+    std::vector<Segment> barriers_;
     std::vector<Candidate> candidates_;
     Field<int32_t> fill_;
 };

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "clusters.hpp"
 #include "mirrors.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
@@ -90,7 +91,8 @@ struct World {
     Particles particles;
     CellGrid grid;
     Images images; // of a periodic scene, else empty
-    NeighborList neighbors;
+    ClusterList clusters;
+    NeighborList neighbors; // of single particles; empty in the default scheme
     Walls walls;
     // With GP_STRESS_IMPLICIT, else empty.
     Mirrors mirrors;

@@ -109,7 +109,7 @@ module granperi_raw
         integer(c_int32_t) :: preset !! GP_PRESET_..., set by gp_config_init
         real(c_double) :: bulk_viscosity
             !! of volume changes under pressure and, inside the yield surface, of shear, in rho c0 dl: it damps elastic
-            !! waves and does not act at rest; 0: off; 0 .. 1 [the scheme's own: 0.2]
+            !! waves and does not act at rest; 0: off; 0 .. 1 [the scheme's own: 0.1]
         real(c_double) :: implicit_tolerance
             !! with GP_STRESS_IMPLICIT: the solve of a step has converged when what is left of the momentum balance is
             !! below this share of the forces in it (root mean squares), and the rates fit the stress to its root; 1e-12

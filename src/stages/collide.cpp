@@ -5,29 +5,97 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lanes.hpp"
 #include "parallel.hpp"
 #include "stages/push.hpp"
+#include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
 
 namespace {
 
-// Calls found(j, e, u) for the colliding partners of i: e the unit vector to j, u the speed of approach.
-template <class Found> void for_each_partner(const World &world, int64_t i, double distance, const Found &found) {
-    const Particles &p = world.particles;
-    const int64_t first = world.neighbors.start[i];
-    for (int64_t k = first; k < first + world.neighbors.close_count[i]; ++k) {
-        const int32_t j = world.neighbors.index[k];
-        const double dx = p.x[j] - p.x[i], dy = p.y[j] - p.y[i];
-        const double r2 = dx * dx + dy * dy;
-        if (r2 >= distance * distance || r2 == 0)
+struct View {
+    Clusters clusters;
+    const double *x, *y, *vx, *vy;
+    double distance2;
+    const Constants *constants;
+    const int32_t *column;
+    uint8_t *colliding;
+    double *du, *dv; // velocity changes
+
+    GP_INLINE double density(int64_t i) const {
+        return constants->materials[constants->body_material[column[i]]].density;
+    }
+};
+
+// How many partners each particle has. Returns the sum.
+GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end) {
+    const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
+    const Lanes one = Lanes{} + 1.0;
+    int64_t sum = 0;
+    for (int64_t c = begin; c < end; ++c) {
+        const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
+        const LanePlaces places(first, last);
+        const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
+        const bool partly = v.clusters.is_partly_seen(c);
+        Lanes partners{};
+        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
+            const int32_t j = v.clusters.index[k];
+            const Lanes dx = x[j] - xi, dy = y[j] - yi;
+            const Lanes r2 = dx * dx + dy * dy;
+            // Where they are in the same place they do not approach: one's self among them.
+            const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
+            const Lanes partner = where(approach > 0.0, where(r2 < v.distance2, one));
+            partners += partly ? v.clusters.seen(partner, k) : partner;
+        }
+        for (int64_t i = first; i < last; ++i) {
+            const auto found = static_cast<int64_t>(partners[i - first]);
+            v.colliding[i] = static_cast<uint8_t>(found < 255 ? found : 255);
+            sum += found;
+        }
+    }
+    return sum;
+}
+
+// The velocity changes of the particles that have partners.
+GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
+    const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
+    for (int64_t c = begin; c < end; ++c) {
+        const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
+        int any = 0;
+        for (int64_t i = first; i < last; ++i)
+            any |= v.colliding[i];
+        if (!any)
             continue;
-        const double approach = (p.vx[i] - p.vx[j]) * dx + (p.vy[i] - p.vy[j]) * dy;
-        if (approach <= 0)
-            continue;
-        const double r = std::sqrt(r2);
-        found(j, Vector(dx / r, dy / r), approach / r);
+        const LanePlaces places(first, last);
+        const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
+        Lanes own{}, partners{};
+        for (int l = 0; l < lane_count; ++l) {
+            own[l] = v.density(places.at[l]);
+            partners[l] = v.colliding[places.at[l]];
+        }
+        const bool partly = v.clusters.is_partly_seen(c);
+        Lanes du{}, dv{};
+        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
+            const int32_t j = v.clusters.index[k];
+            if (v.colliding[j] == 0)
+                continue;
+            const Lanes dx = x[j] - xi, dy = y[j] - yi;
+            const Lanes r2 = dx * dx + dy * dy;
+            const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
+            const double other = v.density(j), others = v.colliding[j];
+            const Lanes most = choose(partners > others, partners, Lanes{} + others);
+            // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
+            Lanes impulse =
+                where(approach > 0.0, where(r2 < v.distance2, approach * other / ((own + other) * most * r2)));
+            if (partly)
+                impulse = v.clusters.seen(impulse, k);
+            du -= impulse * dx;
+            dv -= impulse * dy;
+        }
+        places.store(v.du, last, du);
+        places.store(v.dv, last, dv);
     }
 }
 
@@ -38,15 +106,13 @@ void collide(World &world) {
     const double distance = world.scene->config().collision_distance * world.constants.spacing;
     const double dt = world.clock.dt;
     update_images(world);
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
-        int64_t colliding = 0;
-        for (int64_t i = begin; i < end; ++i) {
-            int partners = 0;
-            for_each_partner(world, i, distance, [&](int32_t, const Vector &, double) { ++partners; });
-            world.colliding[i] = static_cast<uint8_t>(std::min(partners, 255));
-            colliding += partners;
-        }
-        world.sums[block].collisions = colliding;
+    // sigma K^-1 has done its work: its first row holds the velocity changes.
+    const View view{Clusters(world),  p.x.data(),      p.y.data(),
+                    p.vx.data(),      p.vy.data(),     distance * distance,
+                    &world.constants, p.column.data(), world.colliding.data(),
+                    p.cxx.data(),     p.cxy.data()};
+    for_each_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+        world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;
     });
     int64_t colliding = 0;
@@ -57,20 +123,7 @@ void collide(World &world) {
 
     world.images.copy(world.colliding);
 
-    // sigma K^-1 has done its work: its first row holds the velocity changes.
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t i = begin; i < end; ++i) {
-            Vector change = Vector::Zero();
-            const double own = world.material_of(i).density;
-            for_each_partner(world, i, distance, [&](int32_t j, const Vector &e, double approach) {
-                const double other = world.material_of(j).density;
-                const double partners = std::max(world.colliding[i], world.colliding[j]);
-                change -= e * (approach * other / ((own + other) * partners));
-            });
-            p.cxx[i] = change.x();
-            p.cxy[i] = change.y();
-        }
-    });
+    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { find_pushes(view, begin, end); });
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         double loss = 0;
         for (int64_t i = begin; i < end; ++i) {

@@ -9,60 +9,16 @@
 // amount of rho in both made energy: half of all there was, between densities of 1 and 40). Of the stretched there is no
 // pressure to be continuous: there it is rho / rho0, in the lighter one's measure (by the excess, a heavy particle of half
 // its density took the light ones beside it below zero).
+#include <algorithm>
 #include <cmath>
 
-#include "kernel.hpp"
 #include "parallel.hpp"
+#include "stages/density_exchange.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
 
 namespace {
-
-struct View {
-    const double *x, *y, *excess, *flowing, *rest;
-    const int64_t *start;
-    const int32_t *index;
-    const double *density;
-    double inverse_radius, rate;
-    double hydrostatic_x, hydrostatic_y; // g / c0^2, 1/m
-    double largest_pace;                 // sum of w
-    double *change;
-};
-
-GP_MULTIVERSION void exchange(const View &v, int64_t begin, int64_t end) {
-    const double *__restrict x = v.x, *__restrict y = v.y, *__restrict excess = v.excess,
-                             *__restrict flowing = v.flowing;
-    const double *__restrict density = v.density, *__restrict rest = v.rest;
-    for (int64_t i = begin; i < end; ++i) {
-        v.change[i] = 0;
-        if (flowing[i] == 0)
-            continue;
-        const int32_t *__restrict row = v.index + v.start[i];
-        const int64_t n = v.start[i + 1] - v.start[i];
-        const double xi = x[i], yi = y[i], own = excess[i], own_density = density[i], own_rest = rest[i];
-        const double inverse_radius = v.inverse_radius;
-        // Weight counts between particles that both bear some.
-        const double half_x = own > 0 ? 0.5 * v.hydrostatic_x : 0.0, half_y = own > 0 ? 0.5 * v.hydrostatic_y : 0.0;
-        double sum = 0, pace = 0;
-#pragma omp simd reduction(+ : sum, pace)
-        for (int64_t k = 0; k < n; ++k) {
-            const int32_t j = row[k];
-            const double dx = x[j] - xi, dy = y[j] - yi;
-            const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius) * flowing[j];
-            const double borne = excess[j] > 0 ? own_density + density[j] : 0.0;
-            const bool denser = own_rest > rest[j];
-            const double share = own_rest / (denser ? own_rest : rest[j]); // the denser one's pace is stable
-            const double lighter = denser ? rest[j] : own_rest;
-            const double there = excess[j] < 0 ? excess[j] * (lighter / rest[j]) : excess[j];
-            const double here = own < 0 ? own * (lighter / own_rest) : own;
-            pace += share * w;
-            sum += share * w * (there - here - borne * (half_x * dx + half_y * dy));
-        }
-        // Beyond this particles are on top of each other: more neighbours than the time step counts on.
-        v.change[i] = v.rate * (pace > v.largest_pace ? v.largest_pace / pace * sum : sum);
-    }
-}
 
 // Integral of p d rho / rho from rho0 on over c0^2, kg/m3.
 double compression_energy(double density, double rest_density) {
@@ -72,49 +28,59 @@ double compression_energy(double density, double rest_density) {
 
 } // namespace
 
-void density_diffusion(World &world) {
+ExchangeView prepare_exchange(World &world) {
     Particles &p = world.particles;
     const Constants &c = world.constants;
     const double c2 = c.sound_speed * c.sound_speed;
+    const double first = c.materials[c.body_material[0]].density;
+    const bool one = std::all_of(c.body_material.begin(), c.body_material.end(),
+                                 [&](int32_t material) { return c.materials[material].density == first; });
     // sigma K^-1 is made later in the step: until then it holds what is needed here.
-    const View view{p.x.data(),
-                    p.y.data(),
-                    p.cxy.data(),
-                    p.flowing.data(),
-                    p.cyx.data(),
-                    world.neighbors.start.data(),
-                    world.neighbors.index.data(),
-                    p.density.data(),
-                    1.0 / c.horizon,
-                    world.scene->config().density_diffusion * c.sound_speed * c.spacing * world.clock.dt * 2.0 /
-                        c.lattice.second_moment,
-                    c.gravity.x() / c2,
-                    c.gravity.y() / c2,
-                    1.5 * c.lattice.number_density, // with the stable step less than all of the difference to the mean
-                    p.cxx.data()};
+    Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.cyx, &inverse_rest = p.cyy;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
-            p.cyx[i] = world.material_of(i).density;
-            p.cxy[i] = p.density[i] - p.cyx[i];
-            const bool flows = world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
+            const MaterialConstants &m = world.material_of(i);
+            excess[i] = p.density[i] - m.density;
+            bears[i] = excess[i] > 0 ? 1.0 : 0.0;
+            if (!one) {
+                rest[i] = m.density;
+                inverse_rest[i] = 1.0 / m.density;
+            }
+            const bool flows = m.map.at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
             p.flowing[i] = flows ? 1.0 : 0.0;
         }
     });
-    world.images.copy({&p.cxy, &p.cyx, &p.flowing, &p.density});
+    world.images.copy({&excess, &bears, &p.flowing, &p.density});
+    if (!one)
+        world.images.copy({&rest, &inverse_rest});
+    return {p.density.data(),
+            excess.data(),
+            p.flowing.data(),
+            bears.data(),
+            rest.data(),
+            inverse_rest.data(),
+            world.scene->config().density_diffusion * c.sound_speed * c.spacing * world.clock.dt * 2.0 /
+                c.lattice.second_moment,
+            c.gravity.x() / c2,
+            c.gravity.y() / c2,
+            1.5 * c.lattice.number_density, // with the stable step less than all of the difference to the mean
+            one,
+            p.cxx.data()};
+}
+
+void density_diffusion(World &world) {
+    Particles &p = world.particles;
+    const double c2 = world.constants.sound_speed * world.constants.sound_speed;
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
-        exchange(view, begin, end);
         double lost = 0;
         for (int64_t i = begin; i < end; ++i) {
             if (p.cxx[i] == 0)
                 continue;
-            const double rest = world.material_of(i).density;
-            lost += compression_energy(p.density[i], rest) - compression_energy(p.density[i] + p.cxx[i], rest);
+            const double rest = world.material_of(i).density, after = p.density[i] + p.cxx[i];
+            lost += compression_energy(p.density[i], rest) - compression_energy(after, rest);
+            p.density[i] = after;
         }
         world.sums[block].diffused = p.volume * c2 * lost;
-    });
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t i = begin; i < end; ++i)
-            p.density[i] += p.cxx[i];
     });
 }
 

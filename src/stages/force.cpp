@@ -1,7 +1,9 @@
 #include <cmath>
 
+#include "lanes.hpp"
 #include "operators.hpp"
 #include "parallel.hpp"
+#include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -9,54 +11,82 @@ namespace gp::stages {
 namespace {
 
 struct View {
+    Clusters clusters;
     const double *x, *y, *vx, *vy, *stressed;
     const double *cxx, *cxy, *cyx, *cyy;
-    const int64_t *start;
-    const int32_t *index;
     double inverse_radius, penalty;
+    double *fx, *fy; // N/m3
 };
 
-struct Force {
-    double x, y; // N/m3
+struct LaneForce {
+    Lanes x, y;
 };
 
 // sum_j w (A_i + A_j) r_ij, and with the penalty on the velocity that the gradient does not see, z_ij = u_j - u_i - L_i r_ij,
 // also kappa/2 sum_j w (z_ij - z_ji), each particle's half only where it is stressed. Since sum_j w z_ij (x) r_ij = 0 for
 // the neighbours that L_i is made of, the penalty's power is -kappa/2 sum w |z|^2: it never drives (after Silling 2017).
 // C = A - kappa L / 2 carries both of a neighbour's tensors at once.
-template <bool Penalty> GP_INLINE Force particle_force(const View &v, int64_t i) {
-    const int32_t *__restrict row = v.index + v.start[i];
-    const int64_t n = v.start[i + 1] - v.start[i];
-    const double xi = v.x[i], yi = v.y[i];
+template <bool Penalty, bool Partly>
+GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &places, LaneForce &force) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     const double *__restrict cxx = v.cxx, *__restrict cxy = v.cxy, *__restrict cyx = v.cyx, *__restrict cyy = v.cyy;
     const double *__restrict stressed = v.stressed;
+    const Lanes xi = places.load(x), yi = places.load(y);
+    Lanes ui{}, vi{}, own{};
+    if (Penalty) {
+        ui = places.load(vx);
+        vi = places.load(vy);
+        own = places.load(stressed);
+    }
     const double inverse_radius = v.inverse_radius;
-    const double own = Penalty ? stressed[i] : 0.0;
-    double wx = 0, wy = 0, tx = 0, ty = 0, pw = 0, pu = 0, pv = 0;
-#pragma omp simd reduction(+ : wx, wy, tx, ty, pw, pu, pv)
-    for (int64_t k = 0; k < n; ++k) {
-        const int32_t j = row[k];
-        const double dx = x[j] - xi, dy = y[j] - yi;
-        const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
-        const double wdx = w * dx, wdy = w * dy;
+    Lanes wx{}, wy{}, tx{}, ty{}, pu{}, pv{};
+    for (int64_t k = v.clusters.start[cluster]; k < v.clusters.stop[cluster]; ++k) {
+        const int32_t j = v.clusters.index[k];
+        const Lanes dx = x[j] - xi, dy = y[j] - yi;
+        Lanes w = weight(dx * dx + dy * dy, inverse_radius);
+        if (Partly)
+            w = v.clusters.seen(w, k);
+        const Lanes wdx = w * dx, wdy = w * dy;
         wx += wdx;
         wy += wdy;
         tx += cxx[j] * wdx + cxy[j] * wdy;
         ty += cyx[j] * wdx + cyy[j] * wdy;
         if (Penalty) {
-            const double share = w * (own + stressed[j]);
-            pw += share;
-            pu += share * vx[j];
-            pv += share * vy[j];
+            const Lanes share = w * (own + stressed[j]);
+            pu += share * (vx[j] - ui);
+            pv += share * (vy[j] - vi);
         }
     }
-    Force f{cxx[i] * wx + cxy[i] * wy + tx, cyx[i] * wx + cyy[i] * wy + ty};
+    force.x = places.load(cxx) * wx + places.load(cxy) * wy + tx;
+    force.y = places.load(cyx) * wx + places.load(cyy) * wy + ty;
     if (Penalty) {
-        f.x += 0.5 * v.penalty * (pu - vx[i] * pw);
-        f.y += 0.5 * v.penalty * (pv - vy[i] * pw);
+        force.x += 0.5 * v.penalty * pu;
+        force.y += 0.5 * v.penalty * pv;
     }
-    return f;
+}
+
+template <bool Penalty> GP_INLINE void force_clusters(const View &v, int64_t begin, int64_t end) {
+    for (int64_t c = begin; c < end; ++c) {
+        const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
+        const LanePlaces places(first, last);
+        LaneForce force;
+        if (v.clusters.is_partly_seen(c))
+            add_neighbors<Penalty, true>(v, c, places, force);
+        else
+            add_neighbors<Penalty, false>(v, c, places, force);
+        for (int64_t i = first; i < last; ++i) {
+            v.fx[i] = force.x[i - first];
+            v.fy[i] = force.y[i - first];
+        }
+    }
+}
+
+GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+    force_clusters<false>(v, begin, end);
+}
+
+GP_MULTIVERSION void penalty_clusters(const View &v, int64_t begin, int64_t end) {
+    force_clusters<true>(v, begin, end);
 }
 
 struct WallView {
@@ -96,22 +126,6 @@ GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &l
     contact.ghost_power = a(0, 0) * gxx + a(0, 1) * gxy + a(1, 0) * gyx + a(1, 1) * gyy;
 }
 
-template <bool Penalty> GP_INLINE void force_rows(const View &v, double *ax, double *ay, int64_t begin, int64_t end) {
-    for (int64_t i = begin; i < end; ++i) {
-        const Force f = particle_force<Penalty>(v, i);
-        ax[i] = f.x;
-        ay[i] = f.y;
-    }
-}
-
-GP_MULTIVERSION void plain_rows(const View &v, double *ax, double *ay, int64_t begin, int64_t end) {
-    force_rows<false>(v, ax, ay, begin, end);
-}
-
-GP_MULTIVERSION void penalty_rows(const View &v, double *ax, double *ay, int64_t begin, int64_t end) {
-    force_rows<true>(v, ax, ay, begin, end);
-}
-
 GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
     const Particles &p = world.particles;
     const double half = 0.5 * world.constants.penalty;
@@ -149,19 +163,9 @@ void force(World &world) {
     Walls &walls = world.walls;
     walls.clear_loads();
     const Constants &c = world.constants;
-    const View view{p.x.data(),
-                    p.y.data(),
-                    p.vx.data(),
-                    p.vy.data(),
-                    p.stressed.data(),
-                    p.cxx.data(),
-                    p.cxy.data(),
-                    p.cyx.data(),
-                    p.cyy.data(),
-                    world.neighbors.start.data(),
-                    world.neighbors.index.data(),
-                    1.0 / c.horizon,
-                    c.penalty};
+    const View view{Clusters(world),   p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),
+                    p.stressed.data(), p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(),
+                    1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data()};
     const bool in_reach = walls.in_reach();
     if (in_reach) {
         const WallView wall{p.x.data(),
@@ -180,9 +184,9 @@ void force(World &world) {
         for_each_block(world.threads, static_cast<int64_t>(walls.contacts.size()),
                        [&](int64_t, int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
     }
-    const auto rows = c.penalty > 0 ? penalty_rows : plain_rows;
+    const auto clusters = c.penalty > 0 ? penalty_clusters : plain_clusters;
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
-        rows(view, p.ax.data(), p.ay.data(), begin, end);
+        clusters(view, world.clusters.cluster_of_block[block], world.clusters.cluster_of_block[block + 1]);
         double power = 0, acceleration2 = 0;
         for (int64_t i = begin; i < end; ++i) {
             double fx = p.ax[i], fy = p.ay[i];

@@ -1,5 +1,8 @@
+// Shape tensor and velocity gradient of each particle; with density diffusion also its sums, over the same pairs.
+#include "lanes.hpp"
 #include "operators.hpp"
 #include "parallel.hpp"
+#include "stages/density_exchange.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -9,68 +12,150 @@ namespace {
 
 struct View {
     Rows rows;
+    Clusters clusters;
     const double *x, *y, *vx, *vy;
     const Plate *plates;
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, lattice_moment;
     double *lxx, *lxy, *lyx, *lyy, *ixx, *ixy, *iyy;
     double *carried; // NULL: no plates
+    ExchangeView exchange;
 };
 
-GP_MULTIVERSION void gradient_rows(const View &v, int64_t begin, int64_t end) {
-    for (int64_t i = begin; i < end; ++i) {
-        Moments m;
-        add_moments(m, v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.vx[i], v.vy[i], v.x, v.y, v.vx, v.vy,
-                    v.inverse_radius);
-        const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
-        for (const Contact &contact : v.rows.contacts_of(i)) {
-            Moments own;
-            add_moments(own, v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
-                        v.gy, v.gvx, v.gvy, v.inverse_radius);
-            drop_wall_shear(v.plates[contact.plate], own.mxx, own.mxy, own.myx, own.myy);
-            m += own;
-        }
-        SymmetricTensor g = inverse_shape(m, v.lattice_moment);
-        g = {carried * g.xx, carried * g.xy, carried * g.yy};
-        if (v.carried)
-            v.carried[i] = carried;
-        v.ixx[i] = g.xx;
-        v.ixy[i] = g.xy;
-        v.iyy[i] = g.yy;
-        v.lxx[i] = m.mxx * g.xx + m.mxy * g.xy;
-        v.lxy[i] = m.mxx * g.xy + m.mxy * g.yy;
-        v.lyx[i] = m.myx * g.xx + m.myy * g.xy;
-        v.lyy[i] = m.myx * g.xy + m.myy * g.yy;
+struct LaneMoments {
+    Lanes kxx{}, kxy{}, kyy{}, mxx{}, mxy{}, myx{}, myy{};
+
+    GP_INLINE Moments of(int lane) const {
+        return {kxx[lane], kxy[lane], kyy[lane], mxx[lane], mxy[lane], myx[lane], myy[lane]};
     }
+};
+
+template <bool Partly, class Exchange>
+GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &places, LaneMoments &sum,
+                             Exchange &exchange) {
+    const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
+    const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
+    const double inverse_radius = v.inverse_radius;
+    LaneMoments m;
+    Exchange local = exchange;
+    for (int64_t k = v.clusters.start[cluster]; k < v.clusters.stop[cluster]; ++k) {
+        const int32_t j = v.clusters.index[k];
+        const Lanes dx = x[j] - xi, dy = y[j] - yi;
+        Lanes w = weight(dx * dx + dy * dy, inverse_radius);
+        if (Partly)
+            w = v.clusters.seen(w, k);
+        const Lanes wx = w * dx, wy = w * dy;
+        const Lanes du = vx[j] - ui, dv = vy[j] - vi;
+        m.kxx += wx * dx;
+        m.kxy += wx * dy;
+        m.kyy += wy * dy;
+        m.mxx += du * wx;
+        m.mxy += du * wy;
+        m.myx += dv * wx;
+        m.myy += dv * wy;
+        local.add(j, w, dx, dy);
+    }
+    sum = m;
+    exchange = local;
+}
+
+GP_INLINE void finish(const View &v, int64_t i, Moments m) {
+    const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
+    for (const Contact &contact : v.rows.contacts_of(i)) {
+        Moments own;
+        add_moments(own, v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
+                    v.gy, v.gvx, v.gvy, v.inverse_radius);
+        drop_wall_shear(v.plates[contact.plate], own.mxx, own.mxy, own.myx, own.myy);
+        m += own;
+    }
+    SymmetricTensor g = inverse_shape(m, v.lattice_moment);
+    g = {carried * g.xx, carried * g.xy, carried * g.yy};
+    if (v.carried)
+        v.carried[i] = carried;
+    v.ixx[i] = g.xx;
+    v.ixy[i] = g.xy;
+    v.iyy[i] = g.yy;
+    v.lxx[i] = m.mxx * g.xx + m.mxy * g.xy;
+    v.lxy[i] = m.mxx * g.xy + m.mxy * g.yy;
+    v.lyx[i] = m.myx * g.xx + m.myy * g.xy;
+    v.lyy[i] = m.myx * g.xy + m.myy * g.yy;
+}
+
+template <class Exchange> GP_INLINE void cluster_gradient(const View &v, int64_t cluster) {
+    const int64_t first = v.clusters.first[cluster], last = v.clusters.first[cluster + 1];
+    const LanePlaces places(first, last);
+    LaneMoments sum;
+    Exchange exchange(v.exchange, places);
+    if (v.clusters.is_partly_seen(cluster))
+        add_neighbors<true>(v, cluster, places, sum, exchange);
+    else
+        add_neighbors<false>(v, cluster, places, sum, exchange);
+    for (int64_t i = first; i < last; ++i) {
+        finish(v, i, sum.of(static_cast<int>(i - first)));
+        exchange.finish(v.exchange, i, static_cast<int>(i - first));
+    }
+}
+
+GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+    for (int64_t c = begin; c < end; ++c)
+        cluster_gradient<NoExchange>(v, c);
+}
+
+GP_MULTIVERSION void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+    for (int64_t c = begin; c < end; ++c)
+        if (!v.exchange.flows(v.clusters.first[c], v.clusters.first[c + 1]))
+            cluster_gradient<NoExchange>(v, c);
+        else
+            cluster_gradient<Exchange<true>>(v, c);
+}
+
+GP_MULTIVERSION void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
+    for (int64_t c = begin; c < end; ++c)
+        if (!v.exchange.flows(v.clusters.first[c], v.clusters.first[c + 1]))
+            cluster_gradient<NoExchange>(v, c);
+        else
+            cluster_gradient<Exchange<false>>(v, c);
+}
+
+View view_of(World &world, const ExchangeView &exchange) {
+    Particles &p = world.particles;
+    const Walls &w = world.walls;
+    return {Rows(world),
+            Clusters(world),
+            p.x.data(),
+            p.y.data(),
+            p.vx.data(),
+            p.vy.data(),
+            w.plates.data(),
+            w.ghost_x.data(),
+            w.ghost_y.data(),
+            w.ghost_vx.data(),
+            w.ghost_vy.data(),
+            1.0 / world.constants.horizon,
+            world.constants.lattice.second_moment,
+            p.lxx.data(),
+            p.lxy.data(),
+            p.lyx.data(),
+            p.lyy.data(),
+            p.gxx.data(),
+            p.gxy.data(),
+            p.gyy.data(),
+            p.carried.empty() ? nullptr : p.carried.data(),
+            exchange};
 }
 
 } // namespace
 
 void gradient(World &world) {
-    Particles &p = world.particles;
-    const Walls &w = world.walls;
-    const View view{Rows(world),
-                    p.x.data(),
-                    p.y.data(),
-                    p.vx.data(),
-                    p.vy.data(),
-                    w.plates.data(),
-                    w.ghost_x.data(),
-                    w.ghost_y.data(),
-                    w.ghost_vx.data(),
-                    w.ghost_vy.data(),
-                    1.0 / world.constants.horizon,
-                    world.constants.lattice.second_moment,
-                    p.lxx.data(),
-                    p.lxy.data(),
-                    p.lyx.data(),
-                    p.lyy.data(),
-                    p.gxx.data(),
-                    p.gxy.data(),
-                    p.gyy.data(),
-                    p.carried.empty() ? nullptr : p.carried.data()};
-    for_each_block(world.threads, p.count,
-                   [&](int64_t, int64_t begin, int64_t end) { gradient_rows(view, begin, end); });
+    const View view = view_of(world, {});
+    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { plain_clusters(view, begin, end); });
+}
+
+void gradient_and_exchange(World &world) {
+    const ExchangeView exchange = prepare_exchange(world);
+    const View view = view_of(world, exchange);
+    const auto clusters = exchange.one_density ? exchanging_clusters : exchanging_clusters_of_densities;
+    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
 }
 
 } // namespace gp::stages

@@ -36,6 +36,8 @@ void wall_velocity(World &world);
 void gradient(World &world);
 // Continuity and equation of state.
 void density(World &world);
+// The same and, over the same pairs, the sums of density_diffusion, which comes next.
+void gradient_and_exchange(World &world);
 // Optional smoothing of the density where the material flows.
 void density_diffusion(World &world);
 // Elastic trial and return map; leaves sigma K^-1.

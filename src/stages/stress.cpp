@@ -1,3 +1,7 @@
+// Elastic trial, return map and sigma K^-1, four particles at a time.
+#include <algorithm>
+
+#include "lanes.hpp"
 #include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -6,75 +10,130 @@ namespace gp::stages {
 
 namespace {
 
-template <bool Penalty> void stress_rows(World &world, int64_t block, int64_t begin, int64_t end) {
+// The materials of four particles.
+struct MaterialLanes {
+    ReturnMapOf<Lanes> map;
+    Lanes density;
+
+    GP_INLINE void set(const Constants &c, const int32_t *column, const LanePlaces &places) {
+        for (int l = 0; l < lane_count; ++l) {
+            const MaterialConstants &m = c.materials[c.body_material[column[places.at[l]]]];
+            map.mu_s[l] = m.map.mu_s;
+            map.mu_2[l] = m.map.mu_2;
+            map.rate_factor[l] = m.map.rate_factor;
+            map.shear_modulus[l] = m.map.shear_modulus;
+            density[l] = m.density;
+        }
+    }
+};
+
+struct StressSums {
+    double plastic, internal, damped; // W/m3 or J/m3, of a block
+};
+
+template <bool Penalty>
+GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     Particles &p = world.particles;
     const double dt = world.clock.dt;
     const double half_penalty = 0.5 * world.constants.penalty;
     const double kinematic_viscosity =
         world.scene->config().bulk_viscosity * world.constants.sound_speed * world.constants.spacing;
-    double plastic = 0, internal = 0, damped = 0;
-    for (int64_t i = begin; i < end; ++i) {
-        const ReturnMap &map = world.map_of(i);
-        const double lxx = p.lxx[i], lxy = p.lxy[i], lyx = p.lyx[i], lyy = p.lyy[i];
-        const double pressure = p.pressure[i];
-        const double dxx = 0.5 * (lxx - lyy), dxy = 0.5 * (lxy + lyx); // deviator of D
-        const Deviator before = rotate({p.sxx[i], p.sxy[i]}, 0.5 * (lxy - lyx), dt);
-        const double stiff = 2.0 * map.shear_modulus;
-        const Deviator trial{before.xx + stiff * dt * dxx, before.xy + stiff * dt * dxy};
-        const double shrink = map.shrink(equivalent_stress(trial), pressure, dt);
-        const Deviator after{shrink * trial.xx, shrink * trial.xy};
-        p.sxx[i] = after.xx;
-        p.sxy[i] = after.xy;
+    const bool near_plates = world.walls.in_reach();
+    Lanes plastic{}, internal{}, damped{};
+    MaterialLanes material{};
+    if (one_material)
+        material.set(world.constants, p.column.data(), LanePlaces(begin, end));
+    for (int64_t first = begin; first < end; first += lane_count) {
+        const LanePlaces places(first, end);
+        if (!one_material)
+            material.set(world.constants, p.column.data(), places);
+        const ReturnMapOf<Lanes> &map = material.map;
+        const Lanes lxx = places.load(p.lxx.data()), lxy = places.load(p.lxy.data());
+        const Lanes lyx = places.load(p.lyx.data()), lyy = places.load(p.lyy.data());
+        const Lanes pressure = places.load(p.pressure.data());
+        const Lanes dxx = 0.5 * (lxx - lyy), dxy = 0.5 * (lxy + lyx); // deviator of D
+        const DeviatorOf<Lanes> old{places.load(p.sxx.data()), places.load(p.sxy.data())};
+        const Lanes spin = 0.5 * (lxy - lyx);
+        const DeviatorOf<Lanes> before = rotate(old, spin, dt);
+        const Lanes stiff = 2.0 * map.shear_modulus;
+        const DeviatorOf<Lanes> trial{before.xx + stiff * dt * dxx, before.xy + stiff * dt * dxy};
+        const Lanes shrink = map.shrink(equivalent_stress(trial), pressure, dt);
+        const DeviatorOf<Lanes> after{shrink * trial.xx, shrink * trial.xy};
 
         // Mean stress of the step times plastic strain (s_trial - s) / 2G; s:e = 2 (s_xx e_xx + s_xy e_xy).
-        plastic +=
-            ((before.xx + after.xx) * (trial.xx - after.xx) + (before.xy + after.xy) * (trial.xy - after.xy)) / stiff;
+        const Lanes own = places.own();
+        plastic += own *
+                   ((before.xx + after.xx) * (trial.xx - after.xx) + (before.xy + after.xy) * (trial.xy - after.xy)) /
+                   stiff;
 
         // What friction does not damp: volume changes under pressure, and shear inside the yield surface, where the
         // material is elastic. Together with the pressure the first never pulls; the second never takes the stress out of
         // the yield surface. Neither acts on a material at rest.
-        const double divergence = lxx + lyy;
-        const double viscosity = kinematic_viscosity * world.material_of(i).density;
-        const double viscous = -viscosity * divergence;
-        const double bulk = pressure > 0 ? (viscous > -pressure ? viscous : -pressure) : 0.0;
-        const Deviator drag{2.0 * viscosity * dxx, 2.0 * viscosity * dxy};
-        const Deviator total{after.xx + drag.xx, after.xy + drag.xy};
-        const bool elastic = shrink == 1.0 && equivalent_stress(total) <= map.mu_s * pressure;
-        const Deviator s = elastic ? total : after;
-        damped += (elastic ? 2.0 * (drag.xx * dxx + drag.xy * dxy) : 0.0) - bulk * divergence;
-        internal += 2.0 * (s.xx * dxx + s.xy * dxy) - (pressure + bulk) * divergence;
+        const Lanes divergence = lxx + lyy;
+        const Lanes viscosity = kinematic_viscosity * material.density;
+        const Lanes viscous = -viscosity * divergence;
+        const Lanes bulk = where(pressure > 0.0, choose(viscous > -pressure, viscous, -pressure));
+        const DeviatorOf<Lanes> drag{2.0 * viscosity * dxx, 2.0 * viscosity * dxy};
+        const DeviatorOf<Lanes> total{after.xx + drag.xx, after.xy + drag.xy};
+        const auto elastic = (shrink == 1.0) & (equivalent_stress(total) <= map.mu_s * pressure);
+        const DeviatorOf<Lanes> s{choose(elastic, total.xx, after.xx), choose(elastic, total.xy, after.xy)};
+        damped += own * (where(elastic, 2.0 * (drag.xx * dxx + drag.xy * dxy)) - bulk * divergence);
+        internal += own * (2.0 * (s.xx * dxx + s.xy * dxy) - (pressure + bulk) * divergence);
 
-        const double axx = s.xx - pressure - bulk, ayy = -s.xx - pressure - bulk, axy = s.xy;
-        double cxx = axx * p.gxx[i] + axy * p.gxy[i];
-        double cxy = axx * p.gxy[i] + axy * p.gyy[i];
-        double cyx = axy * p.gxx[i] + ayy * p.gxy[i];
-        double cyy = axy * p.gxy[i] + ayy * p.gyy[i];
+        const Lanes gxx = places.load(p.gxx.data()), gxy = places.load(p.gxy.data()), gyy = places.load(p.gyy.data());
+        const Lanes axx = s.xx - pressure - bulk, ayy = -s.xx - pressure - bulk, axy = s.xy;
+        Lanes cxx = axx * gxx + axy * gxy;
+        Lanes cxy = axx * gxy + axy * gyy;
+        Lanes cyx = axy * gxx + ayy * gxy;
+        Lanes cyy = axy * gxy + ayy * gyy;
+        const int64_t last = first + lane_count < end ? first + lane_count : end;
         if (Penalty) {
-            const double stressed = pressure > 0 && !touches_slip(world, i) ? 1.0 : 0.0;
-            const double share = half_penalty * stressed;
-            p.stressed[i] = stressed;
+            Lanes stressed = where(pressure > 0.0, Lanes{} + 1.0);
+            if (near_plates)
+                for (int64_t i = first; i < last; ++i)
+                    if (touches_slip(world, i))
+                        stressed[i - first] = 0;
+            const Lanes share = half_penalty * stressed;
             cxx -= share * lxx;
             cxy -= share * lxy;
             cyx -= share * lyx;
             cyy -= share * lyy;
+            places.store(p.stressed.data(), last, stressed);
         }
-        p.cxx[i] = cxx;
-        p.cxy[i] = cxy;
-        p.cyx[i] = cyx;
-        p.cyy[i] = cyy;
+        places.store(p.sxx.data(), last, after.xx);
+        places.store(p.sxy.data(), last, after.xy);
+        places.store(p.cxx.data(), last, cxx);
+        places.store(p.cxy.data(), last, cxy);
+        places.store(p.cyx.data(), last, cyx);
+        places.store(p.cyy.data(), last, cyy);
     }
-    world.sums[block].plastic = p.volume * plastic;
-    world.sums[block].bulk = p.volume * damped * dt;
-    world.sums[block].internal_power = p.volume * internal;
+    sums = {sum_of(plastic), sum_of(internal), sum_of(damped)};
+}
+
+GP_MULTIVERSION void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+    stress_rows<false>(world, one_material, begin, end, sums);
+}
+
+GP_MULTIVERSION void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+    stress_rows<true>(world, one_material, begin, end, sums);
 }
 
 } // namespace
 
 void stress(World &world) {
-    const auto rows = world.constants.penalty > 0 ? stress_rows<true> : stress_rows<false>;
-    for_each_block(world.threads, world.particles.count,
-                   [&](int64_t block, int64_t begin, int64_t end) { rows(world, block, begin, end); });
     Particles &p = world.particles;
+    const auto rows = world.constants.penalty > 0 ? penalty_rows : plain_rows;
+    const std::vector<int32_t> &materials = world.constants.body_material;
+    const bool one_material =
+        std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });
+    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+        StressSums of_block;
+        rows(world, one_material, begin, end, of_block);
+        BlockSums &sums = world.sums[block];
+        sums.plastic = p.volume * of_block.plastic;
+        sums.bulk = p.volume * of_block.damped * world.clock.dt;
+        sums.internal_power = p.volume * of_block.internal;
+    });
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.constants.penalty > 0)
         world.images.copy(p.stressed);

@@ -30,6 +30,10 @@ void wrap(World &world) {
 // few steps it grows with the root of the shift per step.
 constexpr double thinnest_skin = 0.1, thickest_skin = 0.8, skin_factor = 2.0;
 
+// Cells, in dl. Clusters are as compact as two rows of particles make them; finer cells along the rows put particles nearly
+// in the order of x.
+constexpr double cell_width = 1, cell_height = 2;
+
 // Of the particles about a ghost's mirror point, in dl: one of a dense set is always within a spacing.
 constexpr double mirror_reach = 1.5;
 
@@ -49,7 +53,7 @@ void update_neighbors(World &world) {
     const Period &period = c.period;
     if (period)
         wrap(world);
-    world.grid.sort(world.particles, 0.5 * radius, world.threads);
+    world.grid.sort(world.particles, cell_width * c.spacing, cell_height * c.spacing, world.threads);
     for (Plate &plate : world.walls.plates)
         plate.place(world.clock.time, world.clock.dt);
     if (period) {
@@ -58,9 +62,10 @@ void update_neighbors(World &world) {
         if (!world.colliding.empty())
             world.colliding.resize(world.particles.count + world.images.count);
     }
-    find_neighbors(world.particles, world.grid, world.images, radius, close,
-                   world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads,
-                   world.neighbors);
+    find_clusters(world.particles, world.grid, world.images, radius, close,
+                  world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads, world.clusters);
+    if (c.scheme != Scheme::adjoint)
+        find_neighbors(world.particles, world.clusters, radius, world.threads, world.neighbors);
     world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing, world.threads);
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);

@@ -11,6 +11,80 @@ namespace gp::stages {
 
 namespace {
 
+struct View {
+    const double *x, *y, *vx, *vy, *density, *pressure, *sxx, *sxy;
+    double inverse_radius;
+
+    explicit View(const World &world)
+        : x(world.particles.x.data()), y(world.particles.y.data()), vx(world.particles.vx.data()),
+          vy(world.particles.vy.data()), density(world.particles.density.data()),
+          pressure(world.particles.pressure.data()), sxx(world.particles.sxx.data()), sxy(world.particles.sxy.data()),
+          inverse_radius(1.0 / world.constants.horizon) {}
+};
+
+// The particles that a ghost sees.
+struct GhostRow {
+    double x, y; // of the ghost
+    const int32_t *index;
+    int64_t count;
+
+    GhostRow(const Walls &w, int64_t ghost)
+        : x(w.ghost_x[ghost]), y(w.ghost_y[ghost]),
+          index(w.particles_of_ghost.index.data() + w.particles_of_ghost.start[ghost]),
+          count(w.particles_of_ghost.start[ghost + 1] - w.particles_of_ghost.start[ghost]) {}
+};
+
+// Sums of w, and of w times velocity and way from the ghost.
+struct VelocitySums {
+    double w = 0, u = 0, v = 0, x = 0, y = 0;
+};
+
+GP_MULTIVERSION void add_velocities(const View &view, const GhostRow &row, VelocitySums &sums) {
+    const double *__restrict x = view.x, *__restrict y = view.y, *__restrict vx = view.vx, *__restrict vy = view.vy;
+    const int32_t *__restrict index = row.index;
+    const double inverse_radius = view.inverse_radius, at_x = row.x, at_y = row.y;
+    double sw = 0, su = 0, sv = 0, sx = 0, sy = 0;
+#pragma omp simd reduction(+ : sw, su, sv, sx, sy)
+    for (int64_t e = 0; e < row.count; ++e) {
+        const int32_t i = index[e];
+        const double dx = x[i] - at_x, dy = y[i] - at_y;
+        const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+        sw += q;
+        su += q * vx[i];
+        sv += q * vy[i];
+        sx += q * dx;
+        sy += q * dy;
+    }
+    sums = {sw, su, sv, sx, sy};
+}
+
+// Sums of w, and over the particles under pressure of w times pressure, deviator, and rho times the way to the ghost.
+struct WallStressSums {
+    double w = 0, pressure = 0, xx = 0, xy = 0, down_x = 0, down_y = 0;
+};
+
+GP_MULTIVERSION void add_stresses(const View &view, const GhostRow &row, WallStressSums &sums) {
+    const double *__restrict x = view.x, *__restrict y = view.y, *__restrict density = view.density;
+    const double *__restrict pressure = view.pressure, *__restrict xx = view.sxx, *__restrict xy = view.sxy;
+    const int32_t *__restrict index = row.index;
+    const double inverse_radius = view.inverse_radius, at_x = row.x, at_y = row.y;
+    double sw = 0, sp = 0, sxx = 0, sxy = 0, down_x = 0, down_y = 0;
+#pragma omp simd reduction(+ : sw, sp, sxx, sxy, down_x, down_y)
+    for (int64_t e = 0; e < row.count; ++e) {
+        const int32_t i = index[e];
+        const double dx = at_x - x[i], dy = at_y - y[i];
+        const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+        const double bearing = pressure[i] > 0 ? q : 0.0; // stress-free material in flight feels no wall
+        sw += q;
+        sp += bearing * pressure[i];
+        sxx += bearing * xx[i];
+        sxy += bearing * xy[i];
+        down_x += bearing * density[i] * dx;
+        down_y += bearing * density[i] * dy;
+    }
+    sums = {sw, sp, sxx, sxy, down_x, down_y};
+}
+
 // Velocities are extrapolated linearly through the plate's surface, by the ratio of the ghost's depth to the particles'
 // mean distance: without a limit where all that the ghost sees is at yield, which puts the no-slip surface where it is
 // (simple shear to 0.05 %, Bagnold flow; with the limits below everywhere the wall slips by 1.5 % and 2 %), and no steeper
@@ -33,31 +107,30 @@ bool at_yield(const World &world, int32_t i) {
 template <bool Sheared> void extrapolate_velocity(World &world) {
     Walls &w = world.walls;
     const Particles &p = world.particles;
-    const double inverse_radius = 1.0 / world.constants.horizon;
+    const View view(world);
+    const double horizon2 = world.constants.horizon * world.constants.horizon;
     for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Plate &plate = w.plates[w.ghost_plate[k]];
             const Segment &s = plate.segment();
-            const double shift = w.ghost_shift.empty() ? 0.0 : w.ghost_shift[k];
-            double sw = 0, su = 0, sv = 0, sd = 0;
+            const GhostRow row(w, k);
+            VelocitySums sums;
+            add_velocities(view, row, sums);
             const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
             bool flows = rough; // all that the ghost sees is at yield; matters to rough plates alone
-            for (int64_t e = w.particles_of_ghost.start[k]; e < w.particles_of_ghost.start[k + 1]; ++e) {
-                const int32_t i = w.particles_of_ghost.index[e];
-                const double q = weight(std::hypot(p.x[i] - w.ghost_x[k], p.y[i] - w.ghost_y[k]), inverse_radius);
-                sw += q;
-                su += q * p.vx[i];
-                sv += q * p.vy[i];
-                sd += q * s.distance({p.x[i] - shift, p.y[i]});
-                flows = flows && (q == 0 || at_yield(world, i)); // the lists reach further than the horizon
+            for (int64_t e = 0; flows && e < row.count; ++e) {
+                const int32_t i = row.index[e];
+                const double dx = p.x[i] - row.x, dy = p.y[i] - row.y;
+                flows = dx * dx + dy * dy >= horizon2 || at_yield(world, i); // the lists reach further than the horizon
             }
-            if (sw <= 0) { // in the skin only
+            if (sums.w <= 0) { // in the skin only
                 w.ghost_vx[k] = plate.velocity().x();
                 w.ghost_vy[k] = plate.velocity().y();
                 continue;
             }
-            const Vector relative = Vector(su, sv) / sw - plate.velocity();
-            const double distance = std::max(sd / sw, contact_distance * world.constants.spacing);
+            const Vector relative = Vector(sums.u, sums.v) / sums.w - plate.velocity();
+            const double mean_distance = s.normal.dot(Vector(sums.x, sums.y)) / sums.w - w.ghost_depth[k];
+            const double distance = std::max(mean_distance, contact_distance * world.constants.spacing);
             const double ratio = w.ghost_depth[k] / distance;
             const double normal = -std::min(ratio, steepest_normal) * s.normal.dot(relative);
             // Without friction of its own a plate passes no shear through its surface.
@@ -89,31 +162,17 @@ namespace {
 
 template <bool Deviatoric> void extrapolate_stress(World &world) {
     Walls &w = world.walls;
-    const Particles &p = world.particles;
     const Constants &c = world.constants;
-    const double inverse_radius = 1.0 / c.horizon;
+    const View view(world);
     const double inverse_moment = 1.0 / c.lattice.second_moment;
     for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Plate &plate = w.plates[w.ghost_plate[k]];
             const Vector &n = plate.segment().normal, &t = plate.segment().tangent;
-            double sw = 0, sp = 0, sxx = 0, sxy = 0;
-            double down_x = 0, down_y = 0; // sum of w rho times the way to the ghost
-            for (int64_t e = w.particles_of_ghost.start[k]; e < w.particles_of_ghost.start[k + 1]; ++e) {
-                const int32_t i = w.particles_of_ghost.index[e];
-                const double dx = w.ghost_x[k] - p.x[i], dy = w.ghost_y[k] - p.y[i];
-                const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
-                sw += q;
-                if (p.pressure[i] > 0) { // stress-free material in flight feels no wall
-                    sp += q * p.pressure[i];
-                    down_x += q * p.density[i] * dx;
-                    down_y += q * p.density[i] * dy;
-                    if (Deviatoric) {
-                        sxx += q * p.sxx[i];
-                        sxy += q * p.sxy[i];
-                    }
-                }
-            }
+            WallStressSums sums;
+            add_stresses(view, GhostRow(w, k), sums);
+            const double sw = sums.w, sp = sums.pressure, down_x = sums.down_x, down_y = sums.down_y;
+            double sxx = Deviatoric ? sums.xx : 0.0, sxy = Deviatoric ? sums.xy : 0.0;
             const double heavier = c.gravity.x() * down_x + c.gravity.y() * down_y;
             const double pressure = sw > 0 ? std::max(0.0, (sp + heavier) / sw) : 0.0;
             // The stress ratio, not the stress, carries over: it is what the friction law bounds.

@@ -6,12 +6,13 @@ import sys
 
 LAYERS = [
     ["granperi/gp", "error", "check", "parallel"],
-    ["geometry", "kernel", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/linearized"],
+    ["geometry", "kernel", "lanes", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/linearized"],
     ["scene", "scene_constants", "scene_defaults", "scene_pressure"],
     ["particles"],
     ["viscous_system"],
     ["periodic"],
     ["neighbors"],
+    ["clusters"],
     ["mps_operators", "operators", "walls"],
     ["mirrors"],
     ["world", "ledger", "undo"],

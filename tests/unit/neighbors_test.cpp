@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "neighbors.hpp"
+#include "clusters.hpp"
+#include "lanes.hpp"
 #include "world_support.hpp"
 
 using namespace gp;
@@ -39,11 +40,33 @@ struct Points {
     std::unique_ptr<World> world;
 };
 
+// Calls found(i, j, entry) for what each particle sees, by its cluster's row.
+template <class Found> void for_each_entry(const World &world, const Found &found) {
+    const ClusterList &clusters = world.clusters;
+    int64_t expected = 0;
+    for (int64_t c = 0; c < clusters.count(); ++c) {
+        EXPECT_LE(clusters.first[c + 1] - clusters.first[c], lane_count);
+        for (int64_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i) {
+            EXPECT_EQ(i, expected++);
+            for_each_seen(clusters, c, i, [&](int64_t j) { found(c, i, j); });
+        }
+    }
+    EXPECT_EQ(expected, world.particles.count);
+}
+
+double distance(const World &world, int64_t i, int64_t j) {
+    const Particles &p = world.particles;
+    return std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]);
+}
+
 std::set<std::pair<int64_t, int64_t>> listed_pairs(const World &world) {
     std::set<std::pair<int64_t, int64_t>> pairs;
-    for (int64_t i = 0; i < world.particles.count; ++i)
-        for (int64_t k = world.neighbors.start[i]; k < world.neighbors.start[i + 1]; ++k)
-            EXPECT_TRUE(pairs.insert({world.particles.id[i], world.particles.id[world.neighbors.index[k]]}).second);
+    const double radius = world.constants.horizon + world.skin;
+    for_each_entry(world, [&](int64_t, int64_t i, int64_t j) {
+        if (distance(world, i, j) < radius) {
+            EXPECT_TRUE(pairs.insert({world.particles.id[i], world.particles.id[j]}).second);
+        }
+    });
     return pairs;
 }
 
@@ -68,14 +91,26 @@ TEST(Neighbors, AgreeWithBruteForce) {
                 if (i != j && std::hypot(x[i] - x[j], y[i] - y[j]) < radius)
                     expected.insert({i, j});
         EXPECT_EQ(listed_pairs(world), expected);
+        // Those that may collide with one of a cluster come first in its row.
+        const ClusterList &clusters = world.clusters;
         const double close = 0.9 + world.skin;
-        for (int64_t i = 0; i < 500; ++i)
-            for (int64_t k = world.neighbors.start[i]; k < world.neighbors.start[i + 1]; ++k) {
-                const int64_t j = world.neighbors.index[k];
-                const double r = std::hypot(world.particles.x[i] - world.particles.x[j],
-                                            world.particles.y[i] - world.particles.y[j]);
-                EXPECT_EQ(k < world.neighbors.start[i] + world.neighbors.close_count[i], r < close);
+        for (int64_t c = 0; c < clusters.count(); ++c)
+            for (int64_t k = clusters.start[c]; k < clusters.stop[c]; ++k) {
+                double nearest = INFINITY;
+                for (int64_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i)
+                    nearest = std::min(nearest, distance(world, i, clusters.index[k]));
+                EXPECT_LT(nearest, radius);
+                EXPECT_EQ(k < clusters.close_stop[c], nearest < close);
             }
+        // The rows of single particles hold the same.
+        NeighborList rows;
+        find_neighbors(world.particles, clusters, radius, 1, rows);
+        std::set<std::pair<int64_t, int64_t>> of_rows;
+        for (int64_t i = 0; i < 500; ++i)
+            for (int64_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                of_rows.insert({world.particles.id[i], world.particles.id[rows.index[k]]});
+        EXPECT_EQ(of_rows, expected);
+        EXPECT_EQ(rows.start[500], static_cast<int64_t>(expected.size()));
     }
 }
 

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Instructions of short fixed runs, counted by callgrind, against the figures in instructions.txt: a guard against losses
+of speed that does not depend on how fast or busy the machine is.
+
+    instructions.py --step build/bench/step --compiler "GNU 12.2.0" [--update]
+
+Exit status: 0 within the tolerance; 1 beyond it, in either direction; 77 (skipped) without valgrind or with a compiler or
+processor other than the figures were made with. --update writes the figures that were counted.
+"""
+import argparse
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOLERANCE = 0.03
+SKIPPED = 77
+FIGURES = pathlib.Path(__file__).with_name("instructions.txt")
+# Options of bench/step. Instructions of the steps are those of the longer run less those of the shorter one.
+CASES = {
+    "collapse": ["--resolution", "32", "--from", "0"],
+    "collapse_horizon_2.5": ["--resolution", "32", "--from", "0", "--horizon", "2.5"],
+    "collapse_without_diffusion": ["--resolution", "32", "--from", "0", "--diffusion", "0"],
+}
+STEPS = (200, 300)
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(SKIPPED)
+
+
+def processor_has_avx2():
+    """Valgrind runs the clones for AVX2 where the processor has it, never those for AVX-512."""
+    try:
+        return re.search(r"^flags\s*:.*\bavx2\b.*\bfma\b|^flags\s*:.*\bfma\b.*\bavx2\b",
+                         pathlib.Path("/proc/cpuinfo").read_text(), re.M) is not None
+    except OSError:
+        return False
+
+
+def count(step, options, steps):
+    """Instructions of one run, and its number of particles."""
+    with tempfile.TemporaryDirectory() as work:
+        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={work}/out", step, *options, "--steps",
+                   str(steps)]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            sys.exit(f"{' '.join(command)} ended with status {run.returncode}:\n{run.stderr}")
+        summary = re.search(r"^(?:summary|totals): (\d+)", pathlib.Path(work, "out").read_text(), re.M)
+        return int(summary.group(1)), int(re.search(r"^particles (\d+)", run.stdout, re.M).group(1))
+
+
+def per_particle_step(step, options):
+    short, particles = count(step, options, STEPS[0])
+    long, _ = count(step, options, STEPS[1])
+    return (long - short) / particles / (STEPS[1] - STEPS[0])
+
+
+def read_figures():
+    lines = [line.split(maxsplit=1) for line in FIGURES.read_text().splitlines() if line and not line.startswith("#")]
+    return {name: value for name, value in lines}
+
+
+def write_figures(compiler, counted):
+    text = "# Instructions per particle and step, by callgrind. Made by: cmake --build build --target update_instructions\n"
+    text += f"compiler {compiler}\n" + "".join(f"{name} {value:.0f}\n" for name, value in counted.items())
+    FIGURES.write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--step", required=True)
+    parser.add_argument("--compiler", required=True)
+    parser.add_argument("--update", action="store_true")
+    arguments = parser.parse_args()
+    if not shutil.which("valgrind"):
+        skip("valgrind is not installed")
+    if not processor_has_avx2():
+        skip("the figures are of a processor with AVX2 and FMA")
+    figures = {} if arguments.update else read_figures()
+    if figures and figures["compiler"] != arguments.compiler:
+        skip(f"the figures were made with {figures['compiler']}, this build with {arguments.compiler}")
+    counted = {name: per_particle_step(arguments.step, options) for name, options in CASES.items()}
+    if arguments.update:
+        write_figures(arguments.compiler, counted)
+    beyond = False
+    for name, value in counted.items():
+        expected = float(figures.get(name, value))
+        beyond |= abs(value / expected - 1) > TOLERANCE
+        print(f"{name}: {value:.0f} instructions per particle and step, checked in {expected:.0f} "
+              f"({100 * (value / expected - 1):+.1f} %)")
+    if beyond:
+        print(f"beyond {100 * TOLERANCE:.0f} %: if it is meant, say why in docs/performance.md and update the figures: "
+              "cmake --build build --target update_instructions")
+    sys.exit(1 if beyond else 0)
+
+
+if __name__ == "__main__":
+    main()
