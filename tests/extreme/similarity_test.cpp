@@ -265,7 +265,7 @@ TEST(Turned, ByAnyAngleIsTheSame) {
     for (const double angle : {30., -77.}) {
         expect_same(angle, false, 0.01);
         Sample peak, spread;
-        for (int k = 0; k < 24; ++k) {
+        for (int k = 0; k < 16; ++k) {
             Turned upright(0, false, shake, k), other(angle, false, shake, k);
             const Motion a = upright.at(late), b = other.at(late);
             peak.add(b.deposit.peak_height / a.deposit.peak_height - 1);
