@@ -1,0 +1,704 @@
+! Written by bindings/generate from include/granperi/gp.h. Do not edit.
+
+!> The C interface of granperi as it is. Programs use the module granperi, which is built on it.
+module granperi_raw
+    use, intrinsic :: iso_c_binding
+    implicit none
+    public
+
+    integer(c_int32_t), parameter :: GP_VERSION_MAJOR = 0
+    integer(c_int32_t), parameter :: GP_VERSION_MINOR = 1
+    integer(c_int32_t), parameter :: GP_VERSION_PATCH = 0
+
+    integer, parameter :: gp_status = c_int32_t
+
+    integer(c_int32_t), parameter :: GP_OK = 0
+    integer(c_int32_t), parameter :: GP_STOPPED = 1
+        !! information: the callback asked to stop; the step it saw is complete
+    integer(c_int32_t), parameter :: GP_E_ARGUMENT = -1
+        !! an argument is missing, not finite, out of range or inconsistent
+    integer(c_int32_t), parameter :: GP_E_STATE = -2 !! the call is out of order, or was made from inside a callback
+    integer(c_int32_t), parameter :: GP_E_MEMORY = -3 !! out of memory
+    integer(c_int32_t), parameter :: GP_E_IO = -4 !! a file could not be created, written or read
+    integer(c_int32_t), parameter :: GP_E_DIVERGED = -5
+        !! a value became non-finite or unbounded (see gp_step): the simulation can be read at its last good step and
+        !! destroyed, not stepped
+    integer(c_int32_t), parameter :: GP_E_UNSUPPORTED = -6
+        !! the option exists, but this build or version does not have it
+    integer(c_int32_t), parameter :: GP_E_VERSION = -7 !! a struct or file comes from a newer version
+    integer(c_int32_t), parameter :: GP_E_INTERNAL = -8
+        !! a defect of the library: please report the text of gp_last_error()
+
+    !> Presets: which scheme gp_config_init describes. The scheme itself follows from nonlocal, stress and density: 1,
+    !> GP_STRESS_ELASTIC, GP_DENSITY_CONTINUITY: the default; 1, GP_STRESS_IMPLICIT, GP_DENSITY_CONTINUITY: the same
+    !> with the regularised law in place of the yield surface; 1, GP_STRESS_REGULARIZED, GP_DENSITY_NUMBER: the
+    !> non-local scheme of [1]; 0, GP_STRESS_REGULARIZED, GP_DENSITY_NUMBER: its local model. Any other combination is
+    !> GP_E_UNSUPPORTED at gp_create. The schemes of [1] are there to compare with: they do not come to rest but creep,
+    !> the more the longer the time step. They have no zero_energy_penalty, density_diffusion and bulk_viscosity (else
+    !> than 0: GP_E_ARGUMENT), and a column's pressure follows from its positions: its initial_pressure has no effect.
+    !> Plates have one layer of wall particles, and ghosts with the velocity and the stress of these behind.
+    integer(c_int32_t), parameter :: GP_PRESET_DEFAULT = 0 !! continuity density, return map, extrapolated walls
+    integer(c_int32_t), parameter :: GP_PRESET_PAPER = 1
+        !! the non-local scheme of [1] as printed, but for misprints: friction_factor 2
+    integer(c_int32_t), parameter :: GP_PRESET_PAPER_LOCAL = 2
+        !! the local model of [1] by MPS operators: friction_factor 1
+
+    !> How the deviatoric stress follows from the motion.
+    integer(c_int32_t), parameter :: GP_STRESS_ELASTIC = 0
+        !! elastic trial with the mu(I) return map of [2]: a true yield, no regularisation
+    integer(c_int32_t), parameter :: GP_STRESS_REGULARIZED = 1
+        !! tau = eta_r D of [1] 3.6, explicit: no yield, creep at rest
+    integer(c_int32_t), parameter :: GP_STRESS_IMPLICIT = 2
+        !! tau = eta_r dev D, solved for the velocity at the end of the step: no yield either, but a creep in proportion
+        !! to delta and no limit on the time step. The check on the first: 10 (delta = 1e-2) to 100 times (1e-6) its
+        !! work
+
+    !> How the density is found.
+    integer(c_int32_t), parameter :: GP_DENSITY_CONTINUITY = 0 !! D rho / Dt = -rho div u
+    integer(c_int32_t), parameter :: GP_DENSITY_NUMBER = 1
+        !! from the particle number density, [1] 2.4, with the equation of state 2.8
+
+    type, bind(c) :: gp_config
+        integer(c_int32_t) :: struct_size = 0
+        real(c_double) :: spacing !! m, particle distance dl; 1e-9 .. 1e9 [0.0025]
+        real(c_double) :: gravity_x !! m/s2 [0]
+        real(c_double) :: gravity_y !! m/s2 [-9.81]
+        real(c_double) :: sound_speed
+            !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
+            !! lowest point, by its initial and plate velocities [0]
+        real(c_double) :: cfl
+            !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
+            !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
+        real(c_double) :: time_step
+            !! s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY. Beyond
+            !! gp_state.dt_limit: refused at the first step, but see allow_unstable_step [0]
+        real(c_double) :: interaction_radius
+            !! dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4]
+        real(c_double) :: horizon
+            !! dl, radius of the peridynamic operators; 1.8 .. 8: below, neighbours are too few [4]
+        real(c_double) :: horizon_length !! m, the horizon as a fixed length; 0: use horizon [0]
+        integer(c_int32_t) :: nonlocal !! 1: peridynamic force states; 0: local model [1]
+        integer(c_int32_t) :: stress !! GP_STRESS_... [GP_STRESS_ELASTIC]
+        integer(c_int32_t) :: density !! GP_DENSITY_... [GP_DENSITY_CONTINUITY]
+        real(c_double) :: friction_factor !! multiplies mu(I): [1] equation 3.12 as printed amounts to 2; 0 .. 10 [1]
+        real(c_double) :: delta
+            !! 1/s, regularisation of the viscosity ([1] 3.6); with GP_STRESS_ELASTIC only of the reported one; with
+            !! GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0 [1e-6]
+        real(c_double) :: collision_distance !! dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9]
+        real(c_double) :: zero_energy_penalty
+            !! of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
+        real(c_double) :: density_diffusion
+            !! smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1 [the scheme's own: 0.2]
+        real(c_double) :: channel_width
+            !! m, W between the side walls; 0: none. Their friction, averaged over the width, is 2 channel_friction p /
+            !! W per volume against the velocity, and holds what it can [0]
+        real(c_double) :: channel_friction !! Coulomb coefficient of the side walls; needs channel_width [0]
+        real(c_double) :: periodic_x_min
+            !! m; with periodic_x_max > periodic_x_min the scene is periodic in x: columns and particles begin within,
+            !! positions return into the period now and then (they may be beyond its ends by less than a spacing), and a
+            !! plate reaches over the period at most: one that just spans it has no ends
+        real(c_double) :: periodic_x_max
+            !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
+            !! whole number of spacings [0, 0]
+        integer(c_int32_t) :: threads
+            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
+            !! for any number
+        integer(c_int64_t) :: seed !! of the jitter [0]
+        real(c_double) :: jitter
+            !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
+        integer(c_int32_t) :: preset !! GP_PRESET_..., set by gp_config_init
+        real(c_double) :: bulk_viscosity
+            !! of volume changes under pressure and, inside the yield surface, of shear, in rho c0 dl: it damps elastic
+            !! waves and does not act at rest; 0: off; 0 .. 1 [the scheme's own: 0.2]
+        real(c_double) :: implicit_tolerance
+            !! with GP_STRESS_IMPLICIT: the solve of a step has converged when what is left of the momentum balance is
+            !! below this share of the forces in it (root mean squares), and the rates fit the stress to its root; 1e-12
+            !! .. 1e-2 [1e-5]
+        integer(c_int32_t) :: implicit_iterations
+            !! with GP_STRESS_IMPLICIT: Newton steps that one solve may take; a solve that needs more is GP_E_DIVERGED;
+            !! 1 .. 10000 [100]
+        integer(c_int32_t) :: allow_unstable_step
+            !! 1: a demanded time_step or cfl beyond the stable limit is taken, with a warning; 0: it is refused [0]
+        integer(c_int32_t) :: retry_halvings
+            !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
+            !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
+    end type
+
+    type, bind(c) :: gp_material
+        integer(c_int32_t) :: struct_size = 0
+        real(c_double) :: grain_density !! kg/m3, rho_s; > 0 [2500]
+        real(c_double) :: volume_fraction !! phi, so rho = phi rho_s; > 0, <= 1 [0.62]
+        real(c_double) :: grain_diameter !! m, d; > 0 [0.002]
+        real(c_double) :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
+        real(c_double) :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
+        real(c_double) :: i0 !! I at which mu is half way between; > 0 [0.3]
+    end type
+
+    !> The pressure with which a column begins.
+    integer(c_int32_t), parameter :: GP_INITIAL_HYDROSTATIC = 0
+        !! in balance with the plates that support the column: no shock at the start
+    integer(c_int32_t), parameter :: GP_INITIAL_NONE = 1 !! none: gravity sets in suddenly
+
+    type, bind(c) :: gp_column
+        integer(c_int32_t) :: struct_size = 0
+        real(c_double) :: x_min !! m, lower left corner
+        real(c_double) :: y_min !! m, lower left corner
+        real(c_double) :: width !! m; > 0, rounded to whole spacings (the log says so), at least one
+        real(c_double) :: height !! m; > 0, rounded to whole spacings (the log says so), at least one
+        integer(c_int32_t) :: material !! id of gp_add_material; 0 is always there [0]
+        real(c_double) :: vx !! m/s, initial velocity [0, 0]
+        real(c_double) :: vy !! m/s, initial velocity [0, 0]
+        integer(c_int32_t) :: initial_pressure
+            !! GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the opposite face, for
+            !! each face of normal n into which gravity presses and at least half of which rests on plates or on other
+            !! hydrostatic columns so borne; to it is added what rests on the opposite face: such columns, and the
+            !! normal_pressure of plates. 0 where nothing bears. No effect with GP_DENSITY_NUMBER
+    end type
+
+    !> What the wall does to the tangential velocity.
+    integer(c_int32_t), parameter :: GP_WALL_NO_SLIP = 0
+        !! the material sticks to a rough wall as far as its own friction allows
+    integer(c_int32_t), parameter :: GP_WALL_FREE_SLIP = 1
+        !! no shear traction. The forces reach over the horizon: beside a pressure that changes along the plate, a share
+        !! of the order of dl / extent of the scene still acts along it
+    integer(c_int32_t), parameter :: GP_WALL_COULOMB = 2 !! tangential traction up to wall_mu times the normal one
+
+    type, bind(c) :: gp_plate
+        integer(c_int32_t) :: struct_size = 0
+        real(c_double) :: x0
+            !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
+            !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
+            !! back to back, best a horizon apart: nearer to each other, a floor under both sees the mean of both sides
+            !! at their foot. The two ends differ
+        real(c_double) :: y0
+            !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
+            !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
+            !! back to back, best a horizon apart: nearer to each other, a floor under both sees the mean of both sides
+            !! at their foot. The two ends differ
+        real(c_double) :: x1
+            !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
+            !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
+            !! back to back, best a horizon apart: nearer to each other, a floor under both sees the mean of both sides
+            !! at their foot. The two ends differ
+        real(c_double) :: y1
+            !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
+            !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
+            !! back to back, best a horizon apart: nearer to each other, a floor under both sees the mean of both sides
+            !! at their foot. The two ends differ
+        integer(c_int32_t) :: friction !! GP_WALL_... [GP_WALL_NO_SLIP]
+        real(c_double) :: wall_mu !! Coulomb coefficient, for GP_WALL_COULOMB only; >= 0 [0]
+        real(c_double) :: vx !! m/s, constant velocity; not with a table [0, 0]
+        real(c_double) :: vy !! m/s, constant velocity; not with a table [0, 0]
+        integer(c_int64_t) :: n_knots !! length of the displacement table; 0: none [0]
+        type(c_ptr) :: knot_t !! s, shape (n_knots), strictly increasing
+        type(c_ptr) :: knot_x !! m, shape (n_knots), displacement; linear between knots, at rest before and after
+        type(c_ptr) :: knot_y !! m, shape (n_knots)
+        real(c_double) :: normal_pressure
+            !! Pa, a load on the plate's back: the plate moves along its normal as a rigid body under this load and the
+            !! material's reaction (its own weight is part of the load), and along its tangent as prescribed: vx, vy
+            !! then have no normal part, and there is no table. 0: all of the motion is prescribed [0]
+        real(c_double) :: mass_per_length
+            !! kg/m2, inertia of a loaded plate per length; only with normal_pressure. 0: light, as half a spacing of
+            !! the heaviest material: it follows its load at once. A heavy plate rings on confined material, which damps
+            !! its slow motion little [0]
+    end type
+
+    integer(c_int32_t), parameter :: GP_LOG_INFO = 0
+    integer(c_int32_t), parameter :: GP_LOG_WARNING = 1
+
+    !> Bits of the particle fields.
+    integer(c_int32_t), parameter :: GP_FIELD_ID = 1
+    integer(c_int32_t), parameter :: GP_FIELD_COLUMN = 2
+    integer(c_int32_t), parameter :: GP_FIELD_X = 4
+    integer(c_int32_t), parameter :: GP_FIELD_Y = 8
+    integer(c_int32_t), parameter :: GP_FIELD_VX = 16
+    integer(c_int32_t), parameter :: GP_FIELD_VY = 32
+    integer(c_int32_t), parameter :: GP_FIELD_PRESSURE = 64
+    integer(c_int32_t), parameter :: GP_FIELD_DENSITY = 128
+    integer(c_int32_t), parameter :: GP_FIELD_SXX = 256
+    integer(c_int32_t), parameter :: GP_FIELD_SXY = 512
+    integer(c_int32_t), parameter :: GP_FIELD_SYY = 1024
+    integer(c_int32_t), parameter :: GP_FIELD_SHEAR_RATE = 2048
+    integer(c_int32_t), parameter :: GP_FIELD_INERTIAL_NUMBER = 4096
+    integer(c_int32_t), parameter :: GP_FIELD_VISCOSITY = 8192
+    integer(c_int32_t), parameter :: GP_FIELD_NUMBER_DENSITY = 16384
+    integer(c_int32_t), parameter :: GP_FIELD_POSITION = 12
+    integer(c_int32_t), parameter :: GP_FIELD_VELOCITY = 48
+    integer(c_int32_t), parameter :: GP_FIELD_ALL = 32767
+
+    type, bind(c) :: gp_particles
+        integer(c_int32_t) :: struct_size = 0 !! set by the caller
+        integer(c_int64_t) :: count !! number of particles n; every array has the shape (n)
+        integer(c_int64_t) :: epoch !! number of changes to the simulation so far: a view is valid while it is the same
+        type(c_ptr) :: id !! counted from 0 in the order in which particles were added
+        type(c_ptr) :: column !! id of the column or set of particles it came with
+        type(c_ptr) :: x !! m
+        type(c_ptr) :: y !! m
+        type(c_ptr) :: vx !! m/s
+        type(c_ptr) :: vy !! m/s
+        type(c_ptr) :: pressure !! Pa, p >= 0
+        type(c_ptr) :: density !! kg/m3; with GP_DENSITY_NUMBER rho0 N / N0
+        type(c_ptr) :: sxx
+            !! Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0; with GP_STRESS_REGULARIZED
+            !! eta_r D, whose trace is not 0
+        type(c_ptr) :: sxy
+            !! Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0; with GP_STRESS_REGULARIZED
+            !! eta_r D, whose trace is not 0
+        type(c_ptr) :: syy
+            !! Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0; with GP_STRESS_REGULARIZED
+            !! eta_r D, whose trace is not 0
+        type(c_ptr) :: shear_rate !! 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3)
+        type(c_ptr) :: inertial_number !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4); 0 where p = 0
+        type(c_ptr) :: viscosity !! Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6)
+        type(c_ptr) :: number_density
+            !! N = sum of w over the neighbours within interaction_radius ([1] 2.4); with GP_DENSITY_NUMBER the scheme's
+            !! own, with the ghosts behind plates
+    end type
+
+    !> What set the time step.
+    integer(c_int32_t), parameter :: GP_DT_NONE = 0 !! no step taken yet
+    integer(c_int32_t), parameter :: GP_DT_SOUND = 1
+        !! elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the lighter is pushed
+        !! by the stiffness of the heavier (horizon 4: from a ratio of about 10 on)
+    integer(c_int32_t), parameter :: GP_DT_FLOW = 2 !! relative motion: a quarter spacing per step
+    integer(c_int32_t), parameter :: GP_DT_PLATE = 3 !! the inertia of a loaded plate
+    integer(c_int32_t), parameter :: GP_DT_VISCOSITY = 4 !! bulk_viscosity, zero_energy_penalty or density_diffusion
+    integer(c_int32_t), parameter :: GP_DT_DEMANDED = 5 !! gp_config.time_step
+    integer(c_int32_t), parameter :: GP_DT_END = 6 !! shortened to land on the t_end of gp_run
+    integer(c_int32_t), parameter :: GP_DT_RETRY = 7
+        !! what is left of a step that diverged, halved (gp_config.retry_halvings)
+
+    type, bind(c) :: gp_state
+        integer(c_int32_t) :: struct_size = 0 !! set by the caller
+        real(c_double) :: time !! s
+        integer(c_int64_t) :: step !! steps taken
+        real(c_double) :: dt !! s, last time step
+        integer(c_int64_t) :: n_particles
+        integer(c_int64_t) :: n_awake
+            !! Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals kinetic +
+            !! potential + elastic + dissipated + plate_work + energy_error.
+        real(c_double) :: kinetic
+        real(c_double) :: potential !! gravitational, zero at the lowest face of the initial material
+        real(c_double) :: elastic !! of compression and shear
+        real(c_double) :: dissipated !! by friction, collisions, walls and the scheme itself
+        real(c_double) :: plate_work !! done by the material on moving plates
+        real(c_double) :: energy_error
+            !! what the ledger does not account for: error of the time integration; in the schemes of [1] also that of
+            !! their operators, which are not adjoint: several per cent of the energy, and at rest more and more of it
+            !! is dissipated on paper alone (below 0)
+        real(c_double) :: momentum_x !! kg/s: kg m/s per metre of depth
+        real(c_double) :: momentum_y !! kg/s: kg m/s per metre of depth
+        real(c_double) :: max_speed !! m/s
+        real(c_double) :: rms_speed !! m/s
+        real(c_double) :: x_left
+            !! m, fronts of the connected deposit: the largest set of particles each within 1.6 dl of another, half a
+            !! spacing added
+        real(c_double) :: x_right
+            !! m, fronts of the connected deposit: the largest set of particles each within 1.6 dl of another, half a
+            !! spacing added
+        real(c_double) :: peak_x !! m, highest point of its surface: x, and y (an absolute coordinate)
+        real(c_double) :: peak_height !! m, highest point of its surface: x, and y (an absolute coordinate)
+        real(c_double) :: max_pressure !! Pa
+        integer(c_int32_t) :: at_rest
+            !! 1: the material has come to rest: the kinetic energy is below 1e-6 of the scene's energy scale, the
+            !! plastic power of the last step would dissipate less than 1e-4 of it in the scene's free-fall time, and no
+            !! more than 1 % of the mass is accelerated by more than 0.05 g (single grains may tremble on a plate). The
+            !! energy scale is the largest of the initial energy of the ledger and the largest kinetic energy so far
+        integer(c_int64_t) :: collisions !! colliding pairs so far ([1] 2.9), each step's counted anew
+        real(c_double) :: wall_seconds !! s of wall-clock time inside the steps so far
+        real(c_double) :: sound_speed !! m/s, c0 in use
+        real(c_double) :: penalty_dissipated
+            !! J/m, the part of dissipated that the zero-energy penalty took, and with GP_STRESS_IMPLICIT the like of it
+            !! in the solve
+        real(c_double) :: wall_dissipated !! J/m, the part of the extrapolation at plates, of either sign
+        real(c_double) :: diffusion_dissipated !! J/m, the part that density diffusion took
+        real(c_double) :: bulk_dissipated !! J/m, the part that the bulk viscosity took
+        real(c_double) :: collision_dissipated !! J/m, the part that collisions took
+        real(c_double) :: channel_dissipated !! J/m, the part that the friction of side walls took
+        integer(c_int32_t) :: dt_reason !! GP_DT_...: what set dt
+        integer(c_int32_t) :: implicit_last
+            !! Newton steps of the last step's solve; this and the next four with GP_STRESS_IMPLICIT only, else 0
+        integer(c_int64_t) :: implicit_newton !! Newton steps so far
+        integer(c_int64_t) :: implicit_linear !! iterations of conjugate gradients so far
+        integer(c_int64_t) :: implicit_failures
+            !! solves that did not converge, so far: each is GP_E_DIVERGED or a retry
+        real(c_double) :: implicit_residual !! of the last solve, as gp_config.implicit_tolerance
+        integer(c_int64_t) :: retries !! steps undone and taken anew so far (gp_config.retry_halvings)
+        real(c_double) :: dt_limit
+            !! s, the largest time_step that is stable for this scene: for waves, loaded plates and the coefficients
+            !! that damp, not for the flow
+        real(c_double) :: max_compression !! largest density over the material's own so far, less 1
+    end type
+
+    type, bind(c) :: gp_load
+        integer(c_int32_t) :: struct_size = 0 !! set by the caller
+        real(c_double) :: fx !! N/m, force of the material on the plate over the last step
+        real(c_double) :: fy !! N/m, force of the material on the plate over the last step
+        real(c_double) :: torque !! N, its moment about the plate's end 0
+        real(c_double) :: dx !! m, displacement of the plate since the start
+        real(c_double) :: dy !! m, displacement of the plate since the start
+        real(c_double) :: impulse_x !! N s/m, integral of fx and fy over time since the start
+        real(c_double) :: impulse_y !! N s/m, integral of fx and fy over time since the start
+    end type
+
+    type, bind(c) :: gp_plan_entry
+        type(c_ptr) :: name !! static text
+        type(c_ptr) :: reason !! static text: why it is active or left out
+        integer(c_int32_t) :: kind !! 0: stage, in the order in which they run; 1: field or table
+        integer(c_int32_t) :: active !! 1, or 0 if this scene leaves it out
+        integer(c_int64_t) :: bytes !! of memory held; 0 for a stage
+        real(c_double) :: seconds !! wall-clock time spent so far; 0 for a field
+        integer(c_int64_t) :: calls !! times run so far; 0 for a field
+        integer(c_int64_t) :: reserved(2)
+    end type
+
+    type, bind(c) :: gp_output
+        integer(c_int32_t) :: struct_size = 0
+        real(c_double) :: every_seconds
+            !! s; > 0: a frame at the start and after the first step at or past each multiple; 0: only by
+            !! gp_output_write [0]
+        integer(c_int32_t) :: fields
+            !! GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written [position,
+            !! velocity, pressure, shear_rate, column]
+        integer(c_int32_t) :: compression !! deflate level, 0 .. 9 [4]
+        integer(c_int32_t) :: single_precision !! 1: floating-point fields as 32 bits; time stays 64 [0]
+    end type
+
+    abstract interface
+        !> Called after every `every`-th step in the thread that runs gp_step or gp_run; a non-zero return stops the
+        !> run.
+        function gp_callback(user, sim) bind(c) result(answer)
+            import
+            type(c_ptr), value :: user
+            type(c_ptr), value :: sim
+            integer(c_int32_t) :: answer
+        end function
+
+        !> text is valid during the call only. The library may not be called from inside it.
+        subroutine gp_log(user, level, text) bind(c)
+            import
+            type(c_ptr), value :: user
+            integer(c_int32_t), value :: level
+            character(kind=c_char), intent(in), optional :: text(*)
+        end subroutine
+
+    end interface
+
+    interface
+        !> Static English text for a status; "unknown status" for any other number. Never NULL.
+        function gp_status_string(status) bind(c, name="gp_status_string") result(answer)
+            import
+            integer(c_int32_t), value :: status
+            type(c_ptr) :: answer
+        end function
+
+        !> Text of this thread's most recent error, "" if there was none. Never NULL; valid until this thread's next
+        !> call.
+        function gp_last_error() bind(c, name="gp_last_error") result(answer)
+            import
+            type(c_ptr) :: answer
+        end function
+
+        !> Version of the library that runs, as major * 10000 + minor * 100 + patch.
+        function gp_version() bind(c, name="gp_version") result(answer)
+            import
+            integer(c_int32_t) :: answer
+        end function
+
+        !> The same as text, e.g. "0.1.0".
+        function gp_version_string() bind(c, name="gp_version_string") result(answer)
+            import
+            type(c_ptr) :: answer
+        end function
+
+        !> 1 if this build has the named feature, else 0. Features: "hdf5", "openmp". NULL or an unknown name gives 0.
+        function gp_has_feature(name) bind(c, name="gp_has_feature") result(answer)
+            import
+            character(kind=c_char), intent(in), optional :: name(*)
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Fills *config with the defaults of the preset. size: sizeof(gp_config).
+        function gp_config_init(config, size, preset) bind(c, name="gp_config_init") result(answer)
+            import
+            type(gp_config), intent(inout), optional :: config
+            integer(c_size_t), value :: size
+            integer(c_int32_t), value :: preset
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Fills *material with glass beads. size: sizeof(gp_material).
+        function gp_material_init(material, size) bind(c, name="gp_material_init") result(answer)
+            import
+            type(gp_material), intent(inout), optional :: material
+            integer(c_size_t), value :: size
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column).
+        function gp_column_init(column, size) bind(c, name="gp_column_init") result(answer)
+            import
+            type(gp_column), intent(inout), optional :: column
+            integer(c_size_t), value :: size
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Fills *plate with a fixed no-slip plate: its ends have to be set. size: sizeof(gp_plate).
+        function gp_plate_init(plate, size) bind(c, name="gp_plate_init") result(answer)
+            import
+            type(gp_plate), intent(inout), optional :: plate
+            integer(c_size_t), value :: size
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Creates an empty simulation; *sim is NULL on error.
+        function gp_create(config, sim) bind(c, name="gp_create") result(answer)
+            import
+            type(gp_config), intent(in), optional :: config
+            type(c_ptr), intent(out) :: sim
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Frees it, closing its output. NULL is fine. Ignored when called from inside its own callback.
+        subroutine gp_destroy(sim) bind(c, name="gp_destroy")
+            import
+            type(c_ptr), value :: sim
+        end subroutine
+
+        !> The calls that add to the scene are possible until the first step and while no output is open; else
+        !> GP_E_STATE. id: receives the new object's number, counted from 0 per kind; may be NULL. Material 0 (glass
+        !> beads) exists from the start, so the first added one is 1. Columns and sets of particles share one count: it
+        !> is the value of the field GP_FIELD_COLUMN.
+        function gp_add_material(sim, material, id) bind(c, name="gp_add_material") result(answer)
+            import
+            type(c_ptr), value :: sim
+            type(gp_material), intent(in), optional :: material
+            integer(c_int32_t), intent(inout), optional :: id
+            integer(c_int32_t) :: answer
+        end function
+
+        !> A rectangle of particles on the lattice of the spacing, the first half a spacing inside its corner.
+        function gp_add_column(sim, column, id) bind(c, name="gp_add_column") result(answer)
+            import
+            type(c_ptr), value :: sim
+            type(gp_column), intent(in), optional :: column
+            integer(c_int32_t), intent(inout), optional :: id
+            integer(c_int32_t) :: answer
+        end function
+
+        !> n >= 1 particles of any shape, each of the area spacing^2. x, y: shape (n), m; vx, vy: shape (n), m/s, or
+        !> NULL for rest.
+        function gp_add_particles(sim, material, n, x, y, vx, vy, id) bind(c, name="gp_add_particles") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: material
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(in), optional :: vx(*)
+            real(c_double), intent(in), optional :: vy(*)
+            integer(c_int32_t), intent(inout), optional :: id
+            integer(c_int32_t) :: answer
+        end function
+
+        function gp_add_plate(sim, plate, id) bind(c, name="gp_add_plate") result(answer)
+            import
+            type(c_ptr), value :: sim
+            type(gp_plate), intent(in), optional :: plate
+            integer(c_int32_t), intent(inout), optional :: id
+            integer(c_int32_t) :: answer
+        end function
+
+        !> The host drives the plate at this velocity (m/s) from now on, from where it is; replaces constant velocity or
+        !> table. Possible at any time, also from a callback.
+        function gp_set_plate_velocity(sim, plate, vx, vy) bind(c, name="gp_set_plate_velocity") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: plate
+            real(c_double), value :: vx
+            real(c_double), value :: vy
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts
+        !> time. After GP_E_MEMORY inside a step the simulation can be read, not stepped; after GP_E_IO (of an output
+        !> that writes by itself) the step is complete, the frame is lost and the run may go on. A step is
+        !> GP_E_DIVERGED, and its text names stage, field, particle, position, time and step, where - a density, a
+        !> stress or an acceleration is not a finite number; - a density is negative or twice the material's own (a blow
+        !> as fast as sound makes it so); - in the step a particle would move by more than a spacing by its
+        !> acceleration, or against another particle or plate (this with a time_step; steps that the library chooses are
+        !> shortened instead); - the flow asks for steps below 1/128 of spacing / wave speed: speeds differ by 32 wave
+        !> speeds. At the first step this is GP_E_ARGUMENT: the sound_speed is wrong for the scene. It is found before
+        !> anything moves, and the step is undone: fields, their order, clock, energies, plates and loads have the bits
+        !> of the last good step. But in a periodic scene particles that have just returned into the period stay there
+        !> and the order is new, and GP_FIELD_NUMBER_DENSITY may differ by rounding. With gp_config.retry_halvings a
+        !> step that diverges is undone and taken as two steps of half its size, one after the other, each of which is
+        !> halved likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the
+        !> callback and the output, with GP_DT_RETRY in gp_state.dt_reason; what is undone nobody sees. After the two
+        !> halves the size is chosen as always. Speeds that ask for too small a step are not retried: the step begins
+        !> with them.
+        function gp_step(sim, n) bind(c, name="gp_step") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int64_t), value :: n
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Steps until the clock shows t_end (s) exactly; the last steps are shortened to land on it. t_end earlier than
+        !> the clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step.
+        function gp_run(sim, t_end) bind(c, name="gp_run") result(answer)
+            import
+            type(c_ptr), value :: sim
+            real(c_double), value :: t_end
+            integer(c_int32_t) :: answer
+        end function
+
+        !> every >= 1; callback NULL removes it (every is then not read).
+        function gp_set_callback(sim, every, callback, user) bind(c, name="gp_set_callback") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int64_t), value :: every
+            type(c_funptr), value :: callback
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: answer
+        end function
+
+        !> log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per
+        !> simulation, with its figure and with what to change. At the first step: a sound_speed that nothing sets or
+        !> below the speeds that the scene can reach, particles within a quarter spacing of a plate's line, a column
+        !> thinner than 3 spacings, a time step beyond the stable limit. Later: a step taken anew, compression above 3 %
+        !> (not of the schemes of [1]), a plate in reach of material at more than 0.3 sound speeds, and, looked at every
+        !> 64 steps, a particle behind a plate, more than 10 % of the dissipation by the zero-energy penalty, an energy
+        !> error above 2 % of the largest energy in the ledger (these two not of the schemes of [1]).
+        function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
+            import
+            type(c_ptr), value :: sim
+            type(c_funptr), value :: log
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Read-only views of the asked fields (GP_FIELD_... or-ed), in the library's own order, which changes from step
+        !> to step: use id. Fields not asked for are NULL. Valid until the next call that changes the simulation.
+        function gp_get_particles(sim, fields, particles) bind(c, name="gp_get_particles") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: fields
+            type(gp_particles), intent(inout), optional :: particles
+            integer(c_int32_t) :: answer
+        end function
+
+        !> One field (exactly one bit), converted to double, in the order of id. n: length of dst, equal to the count.
+        function gp_copy_field(sim, field, dst, n) bind(c, name="gp_copy_field") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: field
+            real(c_double), intent(inout), optional :: dst(*)
+            integer(c_int64_t), value :: n
+            integer(c_int32_t) :: answer
+        end function
+
+        function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
+            import
+            type(c_ptr), value :: sim
+            type(gp_state), intent(inout), optional :: state
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction
+        !> (radius 2 dl) is 1/2, or half of the largest one at x[k] where that stays below 0.9 (beside walls, at
+        !> fronts); 0 outside the fronts. x, height: shape (n), m. n >= 0.
+        function gp_get_surface(sim, n, x, height) bind(c, name="gp_get_surface") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(inout), optional :: height(*)
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Interface of two columns: x[k] separates the particles of `left` from those of `right` in the row of height 2
+        !> dl about y[k] with the fewest on the wrong side; NaN where they do not touch. left, right: ids of columns or
+        !> sets of particles. y, x: shape (n), m.
+        function gp_get_interface(sim, left, right, n, y, x) bind(c, name="gp_get_interface") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: left
+            integer(c_int32_t), value :: right
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(inout), optional :: x(*)
+            integer(c_int32_t) :: answer
+        end function
+
+        function gp_get_plate_load(sim, plate, load) bind(c, name="gp_get_plate_load") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: plate
+            type(gp_load), intent(inout), optional :: load
+            integer(c_int32_t) :: answer
+        end function
+
+        !> What the engine does for this scene and what it leaves out. Fills up to n entries; *n_out receives how many
+        !> there are in all, so a first call with n = 0 and entries = NULL tells the size.
+        function gp_get_plan(sim, n, entries, n_out) bind(c, name="gp_get_plan") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int64_t), value :: n
+            type(gp_plan_entry), intent(inout), optional :: entries(*)
+            integer(c_int64_t), intent(inout), optional :: n_out
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Bitwise restart. Not yet: both return GP_E_UNSUPPORTED. gp_load(path, &sim) reads what gp_save wrote. C has
+        !> one name space for types and functions, and gp_load is also the type above: hence a macro over the function
+        !> gp_load_file (binaries also export it as gp_load).
+        function gp_save(sim, path) bind(c, name="gp_save") result(answer)
+            import
+            type(c_ptr), value :: sim
+            character(kind=c_char), intent(in), optional :: path(*)
+            integer(c_int32_t) :: answer
+        end function
+
+        function gp_load_file(path, sim) bind(c, name="gp_load_file") result(answer)
+            import
+            character(kind=c_char), intent(in), optional :: path(*)
+            type(c_ptr), intent(out) :: sim
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Fills *output with the defaults. size: sizeof(gp_output).
+        function gp_output_init(output, size) bind(c, name="gp_output_init") result(answer)
+            import
+            type(gp_output), intent(inout), optional :: output
+            integer(c_size_t), value :: size
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Creates the HDF5 file `path` (H5MD layout, an existing one is replaced) and beside it an XDMF file (path with
+        !> its extension replaced by .xdmf) for ParaView. Every completed frame survives a crash of the program. output
+        !> NULL: the defaults. One output at a time: GP_E_STATE if one is open.
+        function gp_output_open(sim, path, output) bind(c, name="gp_output_open") result(answer)
+            import
+            type(c_ptr), value :: sim
+            character(kind=c_char), intent(in), optional :: path(*)
+            type(gp_output), intent(in), optional :: output
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Writes a frame of the present state; GP_E_STATE if no output is open.
+        function gp_output_write(sim) bind(c, name="gp_output_write") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Closes the output; GP_E_STATE if none is open. The file is closed also when this returns GP_E_IO.
+        function gp_output_close(sim) bind(c, name="gp_output_close") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t) :: answer
+        end function
+
+    end interface
+end module
