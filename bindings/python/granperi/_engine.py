@@ -71,7 +71,7 @@ class Engine:
         self.lock = threading.RLock()
         self.closed = False
         self.running = 0  # depth of step() and run(): 1 also while their callbacks run
-        self.exports: set[weakref.ref] = set()  # raw arrays of this simulation's memory
+        self.exports: set[int] = set()  # of raw arrays of this simulation's memory
         self.output_pid = 0  # of the process that has opened an output
         self.callback: Callable[[Any], Any] | None = None
         self.on_look: Callable[[], None] | None = None
@@ -88,12 +88,20 @@ class Engine:
         check(lib.granperi_attach(sim, self.watch))
 
     def __del__(self):
+        self.destroy()
+
+    def destroy(self) -> None:
         # A child of a fork must not close the output of its parent.
         if getattr(self, "watch", None) is not None and self.output_pid not in (0, self.getpid()):
             return
         sim, self.sim = getattr(self, "sim", None), None
         if sim:
             self.lib.gp_destroy(sim)
+
+    def forget_export(self, export: int) -> None:
+        self.exports.discard(export)
+        if self.closed and not self.exports:
+            self.destroy()
 
     def locked(self, name: str) -> _Lock:
         """For `with`: the calling thread has the simulation, which is open; else StateError on the call of this name."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import tempfile
 import weakref
-from typing import Any, Callable, Iterator
+from typing import TYPE_CHECKING, Any, Callable, Iterator
 
 import numpy as np
 
@@ -18,6 +18,9 @@ from ._output import Output
 from ._progress import Progress
 from ._state import History, Load, PlanEntry, State
 from ._views import Particles, View
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 _INTEGERS = {"id": np.int64, "column": np.int32}
 
@@ -35,6 +38,23 @@ class Simulation:
     for by view(). One simulation belongs to one thread at a time; a second thread gets StateError. Steps run without the
     GIL. Errors are subclasses of granperi.Error with the library's text.
     """
+
+    if TYPE_CHECKING:  # copies of the fields, shape (n), in the order of id; see the end of this file
+        id: NDArray[np.int64]
+        column: NDArray[np.int32]
+        x: NDArray[np.float64]
+        y: NDArray[np.float64]
+        vx: NDArray[np.float64]
+        vy: NDArray[np.float64]
+        pressure: NDArray[np.float64]
+        density: NDArray[np.float64]
+        sxx: NDArray[np.float64]
+        sxy: NDArray[np.float64]
+        syy: NDArray[np.float64]
+        shear_rate: NDArray[np.float64]
+        inertial_number: NDArray[np.float64]
+        viscosity: NDArray[np.float64]
+        number_density: NDArray[np.float64]
 
     def __init__(self, config: Config | None = None, **values: Any):
         """config: a Config, or its parameters by keyword."""
@@ -76,7 +96,7 @@ class Simulation:
                 engine.closed = True
                 engine.callback = engine.on_look = None
                 if not engine.exports:
-                    engine.__del__()
+                    engine.destroy()
 
     @property
     def closed(self) -> bool:

@@ -1,7 +1,6 @@
 """Views of the library's own arrays that cannot be read once they are out of date."""
 from __future__ import annotations
 
-import weakref
 from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
@@ -23,7 +22,10 @@ class _Memory:
     def __init__(self, engine: "Engine", address: int, count: int, typestr: str):
         self.engine = engine
         self.__array_interface__ = {"data": (address, True), "shape": (count,), "typestr": typestr, "version": 3}
-        engine.exports.add(weakref.ref(self, engine.exports.discard))
+        engine.exports.add(id(self))
+
+    def __del__(self):
+        self.engine.forget_export(id(self))
 
 
 class FieldView(NDArrayOperatorsMixin):
