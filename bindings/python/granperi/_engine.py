@@ -55,8 +55,12 @@ class _Lock:
     def __exit__(self, kind, error, traceback) -> None:
         engine = self.engine
         try:
-            if engine.messages and error is None and engine.running == 0:
+            if engine.messages and engine.running == 0:
                 engine.deliver()
+        except GranperiWarning as warning:  # made an error by a filter
+            if error is None:
+                raise
+            error.add_note(f"granperi has also warned: {warning}")
         finally:
             engine.lock.release()
 

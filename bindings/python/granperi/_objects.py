@@ -242,19 +242,20 @@ class Plate(Parameters):
     @classmethod
     def floor(cls, x_left: float, x_right: float, y: float = 0.0, **more: Any) -> "Plate":
         """A floor at the height y [m] from x_left to x_right [m], material above it."""
-        return cls(**{"x0": max(x_left, x_right), "y0": y, "x1": min(x_left, x_right), "y1": y, **more})
+        left, right = sorted((number("x_left", x_left), number("x_right", x_right)))
+        return cls(**{"x0": right, "y0": y, "x1": left, "y1": y, **more})
 
     @classmethod
     def wall(cls, x: float, y_bottom: float, y_top: float, material: str = "right", **more: Any) -> "Plate":
         """An upright wall at x [m] with the material on its "left" or "right"."""
-        if material not in ("left", "right"):
+        if not isinstance(material, str) or material not in ("left", "right"):
             raise ArgumentTypeError(f"material = {material!r}: expected 'left' or 'right', the wetted side of the wall")
-        ends = sorted((y_bottom, y_top), reverse=material == "left")
+        ends = sorted((number("y_bottom", y_bottom), number("y_top", y_top)), reverse=material == "left")
         return cls(**{"x0": x, "y0": ends[0], "x1": x, "y1": ends[1], **more})
 
     @classmethod
     def gate(cls, x: float, height: float, lift_time: float, material: str = "right", spacing: float = 0.0025,
-             knots: int = 41, **more: Any) -> "Plate":
+             **more: Any) -> "Plate":
         """A smooth upright gate on the floor y = 0 that is lifted with uniform acceleration.
 
         It clears the height [m] of its column within lift_time [s], and goes on until it is six spacings [m] above it.
@@ -263,7 +264,7 @@ class Plate(Parameters):
         if not (height > 0 and lift_time > 0):
             raise ArgumentTypeError(f"height = {height}, lift_time = {lift_time}: expected numbers above 0")
         clear = height + 6 * number("spacing", spacing)
-        part = np.arange(knots) / (knots - 1)
+        part = np.arange(41) / 40
         plate = cls.wall(x, 0.0, clear, material, **{"friction": "free_slip", **more})
         return plate.replace(knot_t=part * (lift_time * (clear / height) ** 0.5), knot_x=0 * part,
                              knot_y=part * part * clear)

@@ -73,6 +73,7 @@ class Scene:
     def __init__(self, config: Config | None = None, run: Run | None = None, name: str = "scene"):
         self.config, self.run, self.name = config or Config(), run or Run(), name
         self._parts: list[_Part] = []
+        self._config_line = ""
 
     def add(self, kind: str, **values: Any) -> None:
         """Adds a table as in a scene file: "material", "column", "particles", "plate", "floor", "wall" or "gate"."""
@@ -124,6 +125,9 @@ class Scene:
             for k, values in enumerate(several):
                 part = _Part(kind, values, name, lines.where(kind, k), f"[[{kind}]] number {k + 1}")
                 scene._add(part, lambda key: lines.where(kind, k, key))
+        # Columns and plates are numbered as they stand in the file, of whatever kind.
+        scene._parts.sort(key=lambda part: int(part.line.rpartition(" ")[2] or 0))
+        scene._config_line = lines.where("config")
         return scene
 
     def _keywords(self, tables: dict, lines: "_Lines", kind: str, valid: list[str], make: Callable) -> Any:
@@ -144,7 +148,10 @@ class Scene:
     def build(self, spacing: float | None = None) -> Simulation:
         """A simulation of the scene, at its own spacing or at another one [m]."""
         config = self.config if spacing is None else self.config.replace(spacing=spacing)
-        sim = Simulation(config)
+        try:
+            sim = Simulation(config)
+        except Error as error:
+            raise SceneError(f"{self.name}{self._config_line}, [config]: {error}") from None
         materials: dict[Any, int] = {0: 0}
         order = sorted(self._parts, key=lambda part: part.kind != "material")  # stable: materials first
         for part in order:

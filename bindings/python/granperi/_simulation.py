@@ -152,8 +152,8 @@ class Simulation:
         return number_out[0]
 
     def add_particles(self, x, y, vx=None, vy=None, material: int = 0) -> int:
-        """Adds a set of particles at x, y [m] with the velocities vx, vy [m/s] or at rest, each of shape (n); returns the
-        set's number, which is the value of the field column."""
+        """Adds a set of particles at x, y [m] with the velocities vx, vy [m/s] (both, or none: at rest), each of shape
+        (n); returns the set's number, which is the value of the field column."""
         x = doubles("x", x)
         y = doubles("y", y, len(x))
         vx = None if vx is None else doubles("vx", vx, len(x))
