@@ -1,10 +1,10 @@
-!> What every call does with its status, and strings between Fortran and C.
+!> What every call does with its status, strings between Fortran and C, and what the library says about itself.
 module granperi_status
     use, intrinsic :: iso_c_binding
-    use granperi_raw, only: GP_OK, gp_last_error
+    use granperi_raw, only: gp_last_error, gp_version_string, gp_has_feature, gp_status_string
     implicit none
     private
-    public :: report, report_text, text_of, c_text
+    public :: report, report_text, text_of, c_text, version_string, has_feature, status_string
 
     interface
         function c_strlen(text) bind(c, name="strlen") result(length)
@@ -22,7 +22,7 @@ contains
         character(*), intent(in) :: what
         integer(c_int32_t), intent(in) :: answer
         integer(c_int32_t), intent(out), optional :: status
-        character(:), allocatable, intent(out), optional :: message
+        character(*), intent(out), optional :: message
         if (answer < 0) then
             call report_text(answer, what//": "//text_of(gp_last_error()), status, message)
             return
@@ -36,7 +36,7 @@ contains
         integer(c_int32_t), intent(in) :: answer
         character(*), intent(in) :: text
         integer(c_int32_t), intent(out), optional :: status
-        character(:), allocatable, intent(out), optional :: message
+        character(*), intent(out), optional :: message
         if (.not. present(status) .and. .not. present(message)) error stop text
         if (present(status)) status = answer
         if (present(message)) message = text
@@ -64,5 +64,25 @@ contains
         character(*), intent(in) :: text
         character(:, kind=c_char), allocatable :: c_string
         c_string = trim(text)//c_null_char
+    end function
+
+    !> Version of the library that runs, e.g. "0.1.0".
+    function version_string() result(text)
+        character(:), allocatable :: text
+        text = text_of(gp_version_string())
+    end function
+
+    !> Whether this build has a feature: "hdf5", "openmp".
+    function has_feature(name) result(answer)
+        character(*), intent(in) :: name
+        logical :: answer
+        answer = gp_has_feature(c_text(name)) == 1
+    end function
+
+    !> Text for a status.
+    function status_string(status) result(text)
+        integer(c_int32_t), intent(in) :: status
+        character(:), allocatable :: text
+        text = text_of(gp_status_string(status))
     end function
 end module

@@ -13,7 +13,6 @@ module granperi_types
     public :: gp_particles
     public :: gp_state
     public :: gp_load
-    public :: gp_plan_entry
     public :: gp_output
     public :: raw_gp_particles
     public :: view_gp_particles
@@ -203,7 +202,7 @@ contains
             !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
             !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
         integer(c_int32_t), intent(out), optional :: status
-        character(:), allocatable, intent(out), optional :: message
+        character(*), intent(out), optional :: message
         type(gp_config) :: made
         integer(c_int32_t) :: answer
         integer(c_int32_t) :: init_preset
@@ -253,7 +252,7 @@ contains
         real(c_double), intent(in), optional :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double), intent(in), optional :: i0 !! I at which mu is half way between; > 0 [0.3]
         integer(c_int32_t), intent(out), optional :: status
-        character(:), allocatable, intent(out), optional :: message
+        character(*), intent(out), optional :: message
         type(gp_material) :: made
         integer(c_int32_t) :: answer
         answer = gp_material_init(made, c_sizeof(made))
@@ -285,7 +284,7 @@ contains
             !! hydrostatic columns so borne; to it is added what rests on the opposite face: such columns, and the
             !! normal_pressure of plates. 0 where nothing bears. No effect with GP_DENSITY_NUMBER
         integer(c_int32_t), intent(out), optional :: status
-        character(:), allocatable, intent(out), optional :: message
+        character(*), intent(out), optional :: message
         type(gp_column) :: made
         integer(c_int32_t) :: answer
         answer = gp_column_init(made, c_sizeof(made))
@@ -337,7 +336,7 @@ contains
             !! the heaviest material: it follows its load at once. A heavy plate rings on confined material, which damps
             !! its slow motion little [0]
         integer(c_int32_t), intent(out), optional :: status
-        character(:), allocatable, intent(out), optional :: message
+        character(*), intent(out), optional :: message
         type(gp_plate) :: made
         integer(c_int32_t) :: answer
         answer = gp_plate_init(made, c_sizeof(made))
@@ -367,7 +366,7 @@ contains
         integer(c_int32_t), intent(in), optional :: single_precision
             !! 1: floating-point fields as 32 bits; time stays 64 [0]
         integer(c_int32_t), intent(out), optional :: status
-        character(:), allocatable, intent(out), optional :: message
+        character(*), intent(out), optional :: message
         type(gp_output) :: made
         integer(c_int32_t) :: answer
         answer = gp_output_init(made, c_sizeof(made))

@@ -4,19 +4,24 @@
                                     within a struct (a plate's table) are no keywords: they go to the call that takes it
   a struct of const pointers with   a type with array pointers of shape (count) in place of C pointers
   a count
-Public are these, the other structs as they are, and every constant; the functions are not.
+Public are these, the other structs as they are, and every constant. Not public are functions, and structs that point to
+text: the module on top has its own.
 """
 
 from fortran_raw import Names, argument_list, comment, with_doc
 from header import Alias, Constants, HeaderError, Struct
 
 COMMON = {"status": "integer(c_int32_t), intent(out), optional :: status",
-          "message": "character(:), allocatable, intent(out), optional :: message"}
+          "message": "character(*), intent(out), optional :: message"}
 
 
 def is_view(struct):
     return any(field.name == "count" for field in struct.fields) and any(
         field.type.pointers == 1 and field.type.const and field.type.base != "char" for field in struct.fields)
+
+
+def has_text(struct):
+    return any(field.type.base == "char" for field in struct.fields)
 
 
 def write_constructor(names, struct, init):
@@ -95,7 +100,7 @@ def write_types(header):
              "module granperi_types",
              "    use granperi_raw, %s" % ", ".join("raw_{0} => {0}".format(view.name) for view in views),
              "    use granperi_status, only: report", "    implicit none", "    private"]
-    public = [struct.name for struct in structs] + ["raw_" + view.name for view in views]
+    public = [struct.name for struct in structs if not has_text(struct)] + ["raw_" + view.name for view in views]
     public += ["view_" + view.name for view in views]
     lines += ["    public :: " + name for name in public]
     lines += ["    public :: " + item.name for item in header.of(Alias)]

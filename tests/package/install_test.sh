@@ -2,17 +2,22 @@
 # The installed package: cmake --install to a fresh prefix, then a C program outside the tree through pkg-config and
 # through find_package, shared and static; and all of that once more after the prefix has been moved.
 #
-# usage: install_test.sh BUILD_DIRECTORY LIBDIR FEATURES    with CMAKE and CC in the environment
+# usage: install_test.sh BUILD_DIRECTORY LIBDIR FEATURES [FC]    with CMAKE and CC in the environment
 #   LIBDIR    the build's CMAKE_INSTALL_LIBDIR, e.g. lib
 #   FEATURES  e.g. "hdf5=1 openmp=1"
+#   FC        the Fortran compiler, if the build has the Fortran module
 set -u
-build=$1 libdir=$2 features=$3
+build=$1 libdir=$2 features=$3 FC=${4:-}
 consumer=$(cd "$(dirname "$0")/consumer" && pwd)
+# shellcheck disable=SC2034
+consumer_fortran=$(cd "$(dirname "$0")/consumer_fortran" && pwd)
 command -v pkg-config >/dev/null || { echo "skipped: no pkg-config"; exit 77; }
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 # shellcheck source=tests/package/consumer.sh
 . "$(dirname "$0")/consumer.sh"
+# shellcheck source=tests/package/consumer_fortran.sh
+. "$(dirname "$0")/consumer_fortran.sh"
 
 prefix=$work/first
 "$CMAKE" --install "$build" --prefix "$prefix" >"$work/install.log" 2>&1 ||
@@ -34,11 +39,22 @@ done
 
 use_pkg_config "$prefix" "$libdir"
 use_cmake "$prefix"
+if [ -n "$FC" ]; then
+    for file in "$libdir/libgranperi_fortran.a" "$libdir/pkgconfig/granperi-fortran.pc" "$libdir/granperi/fortran/granperi.mod"; do
+        [ -e "$prefix/$file" ] || fail "$file is not installed"
+    done
+    use_fortran_pkg_config "$prefix" "$libdir"
+    use_fortran_cmake "$prefix"
+    expect_refusal "$prefix" "the component fortran needs a project with LANGUAGES Fortran" C
+    expect_refusal "$prefix" "it has no component cobol: there is only fortran" Fortran cobol
+fi
 
 moved="$work/somewhere else/deeper" # and with a blank in its name
 mkdir -p "$(dirname "$moved")"
 mv "$prefix" "$moved"
 use_cmake "$moved"
+[ -z "$FC" ] || use_fortran_cmake "$moved"
 mv "$moved" "$work/second"
 use_pkg_config "$work/second" "$libdir"
+[ -z "$FC" ] || use_fortran_pkg_config "$work/second" "$libdir"
 echo "passed"
