@@ -5,12 +5,13 @@ import copy
 import enum
 import inspect
 import keyword
+import math
 from typing import Any, Iterator
 
 import numpy as np
 
 from ._enums import Density, InitialPressure, Preset, Stress, Wall, choice
-from ._errors import ArgumentTypeError, check, doubles, near_match, number, pointer, whole
+from ._errors import ArgumentError, ArgumentTypeError, check, doubles, near_match, number, pointer, whole
 from ._library import ffi, lib
 
 
@@ -260,13 +261,15 @@ class Plate(Parameters):
 
         It clears the height [m] of its column within lift_time [s], and goes on until it is six spacings [m] above it.
         """
-        height, lift_time = number("height", height), number("lift_time", lift_time)
-        if not (height > 0 and lift_time > 0):
-            raise ArgumentTypeError(f"height = {height}, lift_time = {lift_time}: expected numbers above 0")
-        clear = height + 6 * number("spacing", spacing)
+        values = {"height": height, "lift_time": lift_time, "spacing": spacing}
+        height, lift_time, spacing = (number(name, value) for name, value in values.items())
+        for name, value in (("height", height), ("lift_time", lift_time), ("spacing", spacing)):
+            if not 0 < value < math.inf:
+                raise ArgumentError(f"{name} = {value:g}: expected a finite number > 0")
+        clear = height + 6 * spacing
         part = np.arange(41) / 40
         plate = cls.wall(x, 0.0, clear, material, **{"friction": "free_slip", **more})
-        return plate.replace(knot_t=part * (lift_time * (clear / height) ** 0.5), knot_x=0 * part,
+        return plate.replace(knot_t=part * (lift_time * math.sqrt(clear / height)), knot_x=0 * part,
                              knot_y=part * part * clear)
 
 
