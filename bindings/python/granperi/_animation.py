@@ -20,8 +20,8 @@ def _writer(path: str, fps: int):
     extension = os.path.splitext(path)[1].lower()
     if extension in (".mp4", ".mkv", ".webm"):
         if shutil.which("ffmpeg") is None:
-            raise ArgumentError(f"{path}: {extension} files are written with ffmpeg, which is not installed (Debian: ffmpeg); "
-                                "a name that ends in .gif needs Pillow only")
+            raise ArgumentError(f"{path}: {extension} files are written with ffmpeg, which is not installed (Debian: "
+                                "ffmpeg); a name that ends in .gif needs Pillow only")
         return FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"] if extension == ".mp4" else None)
     if extension == ".gif":
         if importlib.util.find_spec("PIL") is None:

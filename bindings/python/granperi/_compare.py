@@ -44,7 +44,8 @@ def _at_one_time(first: Snapshot, second: Snapshot) -> list[Difference]:
     rows = [row("time", "s", first.time, second.time), row("particles", "", len(first.x), len(second.x))]
     rows += [row(name, "m", getattr(a, name), getattr(b, name)) for name in ("peak_height", "peak_x", "x_left", "x_right")]
     if len(first.x) and len(second.x):
-        rows += [row("centre_x", "m", first.x.mean(), second.x.mean()), row("centre_y", "m", first.y.mean(), second.y.mean())]
+        rows += [row("centre_x", "m", first.x.mean(), second.x.mean()),
+                 row("centre_y", "m", first.y.mean(), second.y.mean())]
     if len(first.x) == len(second.x) and len(first.x):
         apart = np.hypot(second.x - first.x, second.y - first.y)
         rows += [row("particles_apart_rms", "m", 0, np.sqrt((apart**2).mean())),

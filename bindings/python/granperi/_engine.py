@@ -157,6 +157,7 @@ class Engine:
     def _raise_failure(self) -> None:
         """The exception of a callback, as it was raised there."""
         failure, self.failure = self.failure, None
+        assert failure is not None
         try:
             raise failure
         finally:

@@ -78,7 +78,7 @@ class Field(enum.IntFlag):
     NUMBER_DENSITY = lib.GP_FIELD_NUMBER_DENSITY
 
 
-FIELD_NAMES = tuple(field.name.lower() for field in Field)
+FIELD_NAMES = tuple(name.lower() for name in Field.__members__)
 
 #: Groups of fields by one name.
 FIELD_GROUPS = {"position": ("x", "y"), "velocity": ("vx", "vy"), "stress": ("sxx", "sxy", "syy"), "all": FIELD_NAMES}
@@ -95,7 +95,7 @@ def field_names(fields) -> tuple[str, ...]:
         raise ArgumentTypeError(f"fields = {fields!r}: expected names of fields") from None
     for item in items:
         if isinstance(item, Field):
-            chosen.update(field.name.lower() for field in Field if field in item)
+            chosen.update(name.lower() for name, field in Field.__members__.items() if field in item)
         elif isinstance(item, str) and item in FIELD_GROUPS:
             chosen.update(FIELD_GROUPS[item])
         elif isinstance(item, str) and item in FIELD_NAMES:

@@ -34,7 +34,8 @@ class Report(list):
         self.end, self.cost_order, self.order = end, cost_order, order
 
     def __str__(self) -> str:
-        lines = [f"at {self.end:g} s; errors for order {self.order:g}, cost grows as spacing^-{self.cost_order:.2f}",
+        lines = [f"at {self.end:g} s; errors for order {self.order:g}, "
+                 f"cost grows as spacing^-{self.cost_order:.2f}",
                  f"{'spacing (m)':>12} {'CPU (s)':>9}" + "".join(f" {name + ' (m)':>17} {'error':>9}" for name in QUANTITIES)]
         for row in self:
             lines.append(f"{row.spacing:>12.5g} {row.cpu_seconds:>9.3g}" + "".join(

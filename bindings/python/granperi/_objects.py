@@ -22,7 +22,7 @@ class Parameters:
     """
 
     _struct: str
-    _enums: dict[str, type] = {}
+    _enums: dict[str, type[enum.IntEnum]] = {}
     _arrays: tuple[str, ...] = ()  # all of one length, in the field _length
     _length = ""
     _values: dict[str, Any]
@@ -65,7 +65,7 @@ class Parameters:
         if name in values:
             value = values[name]
             kind = self._enums.get(name)
-            return kind(value) if kind and value in kind._value2member_map_ else value
+            return kind(value) if kind and value in list(kind) else value
         if name.startswith("__"):
             raise AttributeError(name)
         raise AttributeError(_unknown(type(self).__name__, name, values))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ._engine import Engine, log
 from ._enums import field_bits, field_names
-from ._errors import ArgumentTypeError, StateError, check, number, path_bytes, whole
+from ._errors import Error, StateError, UnsupportedError, check, number, path_bytes, whole
 from ._library import ffi, lib
 from ._objects import _initialised
 from ._state import _STATE_NAMES, State, read_state
@@ -28,19 +28,28 @@ class Output:
     be drawn from the file alone. This needs h5py; without it the file is as the library writes it.
     """
 
-    def __init__(self, sim: "Simulation", engine: Engine, path, every, fields, compression, single_precision):
+    def __init__(self, sim: "Simulation", engine: Engine, path, every, fields, compression, single_precision,
+                 append):
         self._sim: "Simulation | None" = sim
         self._engine = engine
         self.path = os.fspath(path) if isinstance(path, (str, bytes, os.PathLike)) else path
         encoded = path_bytes("path", path)
         struct = _initialised("gp_output")
         struct.every_seconds = number("gp_output.every_seconds", every)
-        struct.fields = field_bits(field_names(DEFAULT_FIELDS if isinstance(fields, str) and fields == "default" else fields))
+        by_default = isinstance(fields, str) and fields == "default"
+        struct.fields = field_bits(field_names(DEFAULT_FIELDS if by_default else fields))
         struct.compression = whole("gp_output.compression", compression, 32)
         struct.single_precision = whole("gp_output.single_precision", int(single_precision), 32)
+        before: list[State] = []
+        if append:
+            if "append" not in dict(ffi.typeof("gp_output").fields):
+                raise UnsupportedError("gp_output.append: this version of the library cannot go on with a file")
+            struct.append = 1
+            before = states_in(self.path)
         check(lib.gp_output_open(engine.sim, encoded, struct))
         engine.output_pid = os.getpid()
-        self._states: list[State] = []
+        step = read_state(engine.sim).step if before else 0
+        self._states = [state for state in before if state.step <= step]
 
     @property
     def closed(self) -> bool:
@@ -94,6 +103,17 @@ def describe(sim: "Simulation") -> dict[str, Any]:
             "plates": [plain(plate) for plate in sim._plates]}
 
 
+def states_in(path) -> list[State]:
+    """The states that Python has written into a file before; none if it has not."""
+    from ._result import Result
+
+    try:
+        with Result(path) as result:
+            return result.history.states
+    except (Error, ImportError):
+        return []  # the library says what is wrong with the file, if anything is
+
+
 def add_to_file(path, states: list[State], scene: dict[str, Any]) -> None:
     try:
         import h5py
@@ -104,6 +124,8 @@ def add_to_file(path, states: list[State], scene: dict[str, Any]) -> None:
         file["parameters"].attrs["scene"] = json.dumps(scene)
         if not states:
             return
+        if "observables" in file:
+            del file["observables"]
         group = file.create_group("observables")
         step = group.create_dataset("step", data=np.array([state.step for state in states], dtype=np.int64))
         time = group.create_dataset("time", data=np.array([state.time for state in states]))

@@ -24,7 +24,7 @@ class Progress:
         except ImportError:
             raise ImportError("a progress bar needs tqdm (Debian: python3-tqdm); or run with progress=False") from None
         self._bar = tqdm(total=self._t_end, initial=self._time(), unit="s", desc="simulated",
-                         bar_format="{desc} {n:.3f}/{total:g} s |{bar}| {percentage:3.0f} % [{elapsed}<{remaining}{postfix}]")
+                         bar_format="{desc} {n:.3f}/{total:g} s |{bar}| {percentage:3.0f} % [{elapsed}<{remaining}]")
         self._before = self._sim._engine.on_look
         self._sim._engine.on_look = self._update
         return self

@@ -146,8 +146,9 @@ class FileSnapshot(Snapshot):
         lines = []
         for values in (self._result.scene or {}).get("plates", []):
             plate = Plate(**values)
-            if plate.knot_t is not None:
-                dx, dy = (float(np.interp(self.time, plate.knot_t, knots)) for knots in (plate.knot_x, plate.knot_y))
+            if plate.knot_t is not None and plate.knot_x is not None and plate.knot_y is not None:
+                dx = float(np.interp(self.time, plate.knot_t, plate.knot_x))
+                dy = float(np.interp(self.time, plate.knot_t, plate.knot_y))
             else:
                 dx, dy = plate.vx * self.time, plate.vy * self.time
             lines.append((plate.x0 + dx, plate.y0 + dy, plate.x1 + dx, plate.y1 + dy))
@@ -239,8 +240,8 @@ class Result:
         if name in _VECTORS:
             element, component = _VECTORS[name]
             return self._particles[element]["value"][frame, :, component].astype(np.float64)
-        element = self._particles[name]
-        return element["value"][frame].astype(np.float64) if "value" in element else element[()]
+        whole = self._particles[name]
+        return whole["value"][frame].astype(np.float64) if "value" in whole else whole[()]
 
     def _need_scene(self) -> dict[str, Any]:
         if self.scene is None:
@@ -250,6 +251,8 @@ class Result:
     @property
     def history(self) -> History:
         """The states at the frames, where Python has written the file; else only clock, fronts and peak are known."""
+        if self._file is None:
+            raise StateError(f"{self.path} is closed")
         if "observables" in self._file:
             group = self._file["observables"]
             columns = {name: group[name][()] if name in ("step", "time") else group[name + "/value"][()]
@@ -263,7 +266,7 @@ class Result:
         return f"<granperi.Result {self.path}: {len(self)} frames>"
 
 
-_KINDS = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
+_KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
 
 
 def _state_of(values: dict[str, Any]) -> State:

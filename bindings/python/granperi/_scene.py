@@ -121,7 +121,8 @@ class Scene:
         for kind in _LISTS:
             several = tables.get(kind, [])
             if not isinstance(several, list) or not all(isinstance(one, dict) for one in several):
-                raise SceneError(f"{name}{lines.where(kind)}: expected [[{kind}]] with two brackets, as there may be several")
+                raise SceneError(f"{name}{lines.where(kind)}: expected [[{kind}]] with two brackets, as there may be "
+                                 "several")
             for k, values in enumerate(several):
                 part = _Part(kind, values, name, lines.where(kind, k), f"[[{kind}]] number {k + 1}")
                 scene._add(part, lambda key: lines.where(kind, k, key))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterator
 import numpy as np
 
 from . import _state
+from ._checkpoint import scene_in
 from ._engine import Engine
 from ._enums import FIELD_NAMES, Field, field_names
 from ._errors import ArgumentError, ArgumentTypeError, StateError, check, doubles, number, path_bytes, pointer, whole
@@ -343,15 +344,15 @@ class Simulation:
     # ------------------------------------------------------------------------------------------------- files
 
     def output(self, path: "str | os.PathLike[str]", every: float = 0.0, fields: Any = "default", compression: int = 4,
-               single_precision: bool = False) -> Output:
+               single_precision: bool = False, append: bool = False) -> Output:
         """Opens an HDF5 file of frames (H5MD, beside it .xdmf for ParaView); one at a time. A context manager.
 
         every [s] > 0: a frame at the start and after the first step at or past each multiple. 0: by write() only.
         fields: names or groups; "default" is position, velocity, pressure, stress, shear_rate and column, which is what
-        the pictures need.
+        the pictures need. append: goes on with a file of this simulation, after load().
         """
         with self._engine.locked("output") as engine:
-            self._output = Output(self, engine, path, every, fields, compression, single_precision)
+            self._output = Output(self, engine, path, every, fields, compression, single_precision, append)
             return self._output
 
     def save(self, path: "str | os.PathLike[str]") -> None:
@@ -362,16 +363,22 @@ class Simulation:
 
     @classmethod
     def load(cls, path: "str | os.PathLike[str]", config: Config | None = None) -> "Simulation":
-        """Goes on from a checkpoint. config: that of the saved simulation, for what Python wants to know of it."""
+        """Goes on from a checkpoint. config: that of the saved simulation; without, it is read from the file (h5py)."""
         self = cls.__new__(cls)
-        self._config = config.replace() if config is not None else Config()
-        self._restore(path_bytes("path", path))
+        encoded = path_bytes("path", path)
+        sim = _loaded(encoded)
+        try:
+            scene = (config.replace(), [Material()], [], []) if config is not None else scene_in(os.fsdecode(encoded))
+            self._config = scene[0]
+        except BaseException:
+            lib.gp_destroy(sim)
+            raise
+        self._restore(sim)
+        _, self._materials, self._columns, self._plates = scene
         return self
 
-    def _restore(self, path: bytes) -> None:
-        handle = ffi.new("gp_sim **")
-        check(lib.gp_load_file(path, handle))
-        self._start(handle[0])
+    def _restore(self, sim) -> None:
+        self._start(sim)
         self._engine.watch.step = self.state.step
 
     def __getstate__(self) -> dict[str, Any]:
@@ -390,9 +397,15 @@ class Simulation:
             path = os.path.join(directory, "checkpoint")
             with open(path, "wb") as file:
                 file.write(kept["checkpoint"])
-            self._restore(os.fsencode(path))
+            self._restore(_loaded(os.fsencode(path)))
         self._materials, self._columns, self._plates = kept["materials"], kept["columns"], kept["plates"]
         self.history = History(kept["history"])
+
+
+def _loaded(path: bytes):
+    handle = ffi.new("gp_sim **")
+    check(lib.gp_load_file(path, handle))
+    return handle[0]
 
 
 def _taken(kind: type[Parameters], given: Any, values: dict[str, Any]) -> Any:

@@ -105,7 +105,8 @@ def _colours(name: str, values: np.ndarray) -> tuple[Any, Any, str]:
         most = np.percentile(np.abs(finite), 99.5) if len(finite) else 1.0
         return plt.get_cmap("RdBu_r"), Normalize(-(most or 1.0), most or 1.0), "both"
     if name in ("column", "id"):
-        return plt.get_cmap("tab10" if name == "column" else "viridis"), Normalize(finite.min(initial=0), finite.max(initial=1)), "neither"
+        scale = Normalize(finite.min(initial=0), finite.max(initial=1))
+        return plt.get_cmap("tab10" if name == "column" else "viridis"), scale, "neither"
     low = min(0.0, finite.min(initial=0.0)) if name not in ("density", "x", "y") else finite.min(initial=np.inf)
     high = np.percentile(finite, 99.5) if len(finite) else 1.0
     return plt.get_cmap("viridis"), Normalize(low, high if high > low else low + 1.0), "max"
@@ -212,8 +213,9 @@ def fronts(source: Any, axes: Axes | None = None) -> Axes:
     """Time-distance diagram of the two fronts."""
     past = history(source)
     axes = _curve_axes(axes, "x (m)", "t (s)")
-    for name, label in (("x_left", "left front"), ("x_right", "right front"), ("peak_x", "peak")):
-        axes.plot(getattr(past, name), past.time, label=label, **({"linestyle": ":", "color": "0.4"} if name == "peak_x" else {}))
+    axes.plot(past.x_left, past.time, label="left front")
+    axes.plot(past.x_right, past.time, label="right front")
+    axes.plot(past.peak_x, past.time, label="peak", linestyle=":", color="0.4")
     axes.set_ylim(past.time[0], past.time[-1])
     axes.legend(frameon=False, fontsize=_SMALL, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return axes

@@ -118,11 +118,45 @@ def test_callbacks_of_a_copy_count_the_same_steps(stepped):
     assert steps == [56]
 
 
-def test_load_goes_on(stepped, tmp_path):
-    other = granperi.load(tmp_path / "checkpoint", stepped.config)
+def test_load_goes_on_and_knows_the_scene(stepped, tmp_path):
+    given, other = granperi.load(tmp_path / "checkpoint", stepped.config), granperi.load(tmp_path / "checkpoint")
+    assert given.config == other.config == stepped.config
+    assert other.materials == stepped.materials and other.plates == stepped.plates
     stepped.step(10)
     other.step(10)
     assert np.array_equal(other.x, stepped.x)
+
+
+def test_the_scene_in_a_checkpoint_is_the_scene(stepped, tmp_path):
+    sim = granperi.Simulation(preset="paper", spacing=0.01, nonlocal_=1, threads=1)
+    beads = sim.add_material(grain_diameter=0.001)
+    sim.add_column(width=0.1, height=0.05, vx=0.1, material=beads)
+    sim.add_particles([0.2], [0.1], material=beads)
+    sim.add_plate(granperi.Plate.floor(-1, 1))
+    sim.add_plate(granperi.Plate.gate(0.1, 0.05, 0.1, "left"))
+    sim.add_plate(granperi.Plate.wall(0, 0, 1, friction="coulomb", wall_mu=0.2))
+    sim.save(tmp_path / "scene")
+    other = granperi.load(tmp_path / "scene")
+    assert other.config == sim.config and other.materials == sim.materials and other.plates == sim.plates
+    assert other._columns == sim._columns
+
+
+def test_output_goes_on_after_load(stepped, tmp_path):
+    stepped = granperi.load(tmp_path / "checkpoint")
+    with stepped.output(tmp_path / "a.h5") as output:
+        output.write()
+        stepped.step(10)
+        output.write()
+    try:
+        output = granperi.load(tmp_path / "checkpoint").output(tmp_path / "a.h5", append=True)
+    except granperi.UnsupportedError:
+        pytest.skip("this version of the library cannot go on with a file")
+    with output:
+        output._sim.step(20)
+        output.write()
+    with granperi.Result(tmp_path / "a.h5") as result:
+        steps = [state.step for state in result.history]
+        assert steps == [50, 70] and len(result) == 2 and result.times[1] == result.history[1].time
 
 
 def test_a_simulation_travels_to_another_process(stepped):
