@@ -122,6 +122,9 @@ def add_to_file(path, states: list[State], scene: dict[str, Any]) -> None:
         return
     with h5py.File(path, "r+") as file:
         file["parameters"].attrs["scene"] = json.dumps(scene)
+        # Of a file that was gone on with, some frames may have been taken back.
+        steps = set(file["particles/all/position/step"][()].tolist())
+        states = [state for state in states if state.step in steps]
         if not states:
             return
         if "observables" in file:

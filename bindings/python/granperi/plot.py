@@ -67,6 +67,12 @@ def _scene_axes(axes: Axes | None, bounds, bar: bool, x_label: bool = True) -> A
     return axes
 
 
+def _legend_above(axes: Axes) -> None:
+    """Beside the title, where it hides nothing."""
+    axes.legend(frameon=False, fontsize=_SMALL, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=4, borderaxespad=0.1,
+                columnspacing=1.2, handlelength=1.4)
+
+
 def _curve_axes(axes: Axes | None, x_label: str, y_label: str) -> Axes:
     if axes is None:
         with plt.rc_context(_STYLE):
@@ -166,7 +172,7 @@ def surface(source: Any, time: float | None = None, axes: Axes | None = None, la
         axes.set_xlim(min(left, left_before), max(right, right_before))
         axes.set_ylim(min(bottom, bottom_before), max(top, top_before))
     axes.plot(*_surface_line(shot), label=label or f"t = {shot.time:.3f} s", linewidth=2)
-    axes.legend(frameon=False, fontsize=_SMALL, loc="upper right")
+    _legend_above(axes)
     return axes
 
 
@@ -185,7 +191,7 @@ def interface(source: Any, left: int = 0, right: int = 1, time: float | None = N
     axes.plot(x, y, color="black", linewidth=2.5, label=f"interface of columns {left} and {right}")
     axes.plot(*_surface_line(shot), color="crimson", linewidth=1.5, label="surface")
     _plates(axes, shot)
-    axes.legend(frameon=False, fontsize=_SMALL, loc="upper right")
+    _legend_above(axes)
     _time_text(axes, shot.time)
     return axes
 
@@ -230,7 +236,7 @@ def compare(one: Any, other: Any, time: float | None = None, labels: tuple[str, 
     for shot, label, style in zip(shots, labels, ("-", "--")):
         axes.plot(*_surface_line(shot), linestyle=style, label=f"{label}, t = {shot.time:.3f} s")
     _plates(axes, shots[0])
-    axes.legend(frameon=False, fontsize=_SMALL, loc="upper right")
+    _legend_above(axes)
     return axes
 
 
