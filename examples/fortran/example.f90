@@ -11,7 +11,8 @@ module example
         real(gp_real) :: resolution = 32 !! particles over the reference length
         real(gp_real) :: end = 1 !! s; negative: depends on the case
         real(gp_real) :: threads = 0 !! 0: the OpenMP default
-        real(gp_real) :: lift_time = 0.1_gp_real !! s in which a gate clears the height of its column; 0: no gates
+        real(gp_real) :: lift_time = 0.1_gp_real !! s in which a gate clears the height of its column; 0: no gates;
+                                                 !! negative: no option of this example
         real(gp_real) :: mu_s_degrees = 21 !! friction angle at rest
         real(gp_real) :: mu_2_degrees = 32 !! friction angle of fast flow
         character(:), allocatable :: output !! HDF5 file; "none": no file
@@ -51,7 +52,9 @@ contains
             case ("--resolution"); call read_number(k, 1.0_gp_real, 1e5_gp_real, .true., options%resolution)
             case ("--end"); call read_number(k, 1e-9_gp_real, 1e6_gp_real, .false., options%end)
             case ("--threads"); call read_number(k, 0.0_gp_real, 1024.0_gp_real, .true., options%threads)
-            case ("--lift-time"); call read_number(k, 0.0_gp_real, 1e6_gp_real, .false., options%lift_time)
+            case ("--lift-time")
+                if (options%lift_time < 0) call stop_with(2, argument(k)//": unknown option (see --help)")
+                call read_number(k, 0.0_gp_real, 1e6_gp_real, .false., options%lift_time)
             case ("--mu-s-degrees"); call read_number(k, 0.0_gp_real, 89.0_gp_real, .false., options%mu_s_degrees)
             case ("--mu-2-degrees"); call read_number(k, 0.0_gp_real, 89.0_gp_real, .false., options%mu_2_degrees)
             case ("--output")
@@ -80,23 +83,36 @@ contains
         logical, intent(in) :: whole
         real(gp_real), intent(inout) :: value
         integer :: problem
-        character(120) :: expected
         character(:), allocatable :: text
         if (k == command_argument_count()) call stop_with(2, argument(k)//": expected a value after it (see --help)")
         text = argument(k + 1)
         read (text, *, iostat=problem) value
         if (problem == 0 .and. value >= low .and. value <= high .and. .not. (whole .and. value > aint(value))) return
-        write (expected, "(': expected a ', a, 'number from ', g0.3, ' to ', g0.3, ' (see --help)')") &
-            trim(merge("whole ", "      ", whole)), low, high
-        call stop_with(2, argument(k)//" "//text//trim(expected))
+        call stop_with(2, argument(k)//" "//text//": expected a "//trim(merge("whole number", "number      ", whole))// &
+                       " from "//plain(low)//" to "//plain(high)//" (see --help)")
     end subroutine
+
+    !> A number as one would write it.
+    function plain(value) result(text)
+        real(gp_real), intent(in) :: value
+        character(:), allocatable :: text
+        character(20) :: written
+        if (abs(value - nint(value)) <= 0) then
+            write (written, "(i0)") nint(value)
+        else if (abs(value) < 0.001_gp_real) then
+            write (written, "(es7.1)") value
+        else
+            write (written, "(f7.3)") value
+        end if
+        text = trim(adjustl(written))
+    end function
 
     subroutine print_help(about, options, extra)
         character(*), intent(in) :: about
         type(example_options), intent(in) :: options
         type(example_extra), intent(in), optional :: extra
         print "(a)", about, "", "options [default]"
-        if (present(extra)) print "(2x, a, t26, a, ' [', g0.3, ']')", extra%name, extra%help, extra%value
+        if (present(extra)) print "(2x, a, t26, a, ' [', a, ']')", extra%name, extra%help, plain(extra%value)
         print "(2x, a, t26, a, ' [', i0, ']')", "--resolution N", "particles over the reference length", &
             nint(options%resolution)
         if (options%end < 0) then
@@ -107,7 +123,7 @@ contains
         print "(2x, a, t26, a, ' [', i0, ']')", "--threads N", "threads, 0 for the OpenMP default", nint(options%threads)
         print "(2x, a, t26, a, ' [', a, ']')", "--output FILE.h5", "frames every 0.01 s, ""none"" for no file", &
             options%output
-        print "(2x, a, t26, a, ' [', f4.2, ']')", "--lift-time SECONDS", &
+        if (options%lift_time >= 0) print "(2x, a, t26, a, ' [', f4.2, ']')", "--lift-time SECONDS", &
             "a gate, lifted with uniform acceleration, clears the height of its column in this time; 0: no gates", &
             options%lift_time
         print "(2x, a, t26, a, ' [', i0, ']')", "--mu-s-degrees ANGLE", "friction angle at rest", nint(options%mu_s_degrees)

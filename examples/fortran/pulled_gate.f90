@@ -74,6 +74,7 @@ program pulled_gate
 
     options%output = "none"
     options%end = 0.5_gp_real
+    options%lift_time = -1
     wall_friction = example_extra("--wall-mu", "Coulomb coefficient of grains on the gate", 0.3_gp_real, 0.0_gp_real, &
                                   5.0_gp_real)
     call parse_options("A weight of 4 kg pulls a gate of 1 kg (both per metre of depth) up from a column, 0.08 m wide and "// &
@@ -86,6 +87,7 @@ program pulled_gate
     call sim%add_plate(gp_plate(y1=top, friction=GP_WALL_FREE_SLIP))
     call sim%add_plate(gp_plate(x0=width, y0=top, x1=width, friction=GP_WALL_COULOMB, wall_mu=wall_friction%value), id=p%gate)
     p%clear = top
+    if (options%output /= "none") call sim%output_open(options%output, gp_output(every_seconds=0.01_gp_real))
 
     print "(a)", "# time s, gate lifted m, its velocity m/s, acceleration m/s2, friction of the grains N/m, their thrust N/m,"// &
         " tension of the rope N/m, front m"
@@ -114,12 +116,17 @@ program pulled_gate
         end if
         if (state%time >= options%end) exit
     end do
-    print "(a, t21, g0.6, a)", "gate_clear_at", opened, " s"
+    if (opened < 0) then
+        print "(a)", "gate_clear_at       never: the run ended before"
+    else
+        print "(a, t21, g0.6, a)", "gate_clear_at", opened, " s"
+    end if
     print "(a, t21, g0.6, a)", "without_grains", sqrt(2*p%clear*(p%gate_mass + p%weight_mass) &
                                                        /((p%weight_mass - p%gate_mass)*p%gravity)), " s"
     print "(a, t21, g0.6, a)", "largest_thrust", largest_thrust, " N/m"
     print "(a, t21, g0.6, a)", "momentum_error", error, " N s/m"
     print "(a, t21, g0.6, a)", "friction_excess", worst_friction, " N/m over wall_mu times the thrust of its step"
     print "(a, t21, g0.6, a)", "x_right", state%x_right, " m"
+    if (options%output /= "none") call sim%output_close()
     call sim%destroy()
 end program

@@ -73,7 +73,7 @@ def pulled_gate(program):
     values, table = run(program, *options)
     value = {name: float(text) for name, text in values.items()}
     free = float(run(program, *options, "--wall-mu", "0")[0]["gate_clear_at"])
-    held = float(run(program, *options, "--wall-mu", "5")[0]["gate_clear_at"])
+    held = run(program, *options, "--wall-mu", "5")[0]["gate_clear_at"]
     # Sums over some 1200 steps in double precision; the impulses are of the order of 10 N s/m.
     expect(value["momentum_error"] < 1e-10, "momentum of gate and weight closes:", values["momentum_error"], "N s/m")
     # The column begins in balance: its thrust on the gate is rho g h^2 / 2; 1550 kg/m3, 0.08 m.
@@ -83,7 +83,7 @@ def pulled_gate(program):
            "N/m beyond")
     expect(value["without_grains"] < free < value["gate_clear_at"],
            "the grains slow the gate down, by friction more:", value["without_grains"], free, value["gate_clear_at"], "s")
-    expect(held > value["gate_clear_at"] or held < 0, "a rougher gate opens later:", held, "s")
+    expect(held == "never:" or float(held) > value["gate_clear_at"], "a rougher gate opens later or never:", held)
     loose = [row for row in table if row[1] > 0.085 and row[2] > 0]
     atwood = (4 - 1) * 9.81 / (4 + 1)
     expect(loose and all(math.isclose(row[3], atwood, rel_tol=1e-3) for row in loose),

@@ -72,7 +72,7 @@ program scenario
     integer, target :: lid
     integer :: beads, k
 
-    call sim%create(gp_config(spacing=0.004_gp_real, sound_speed=20.0_gp_real, threads=1, seed=7_c_int64_t, &
+    call sim%create(gp_config(spacing=0.004_gp_real, sound_speed=20.0_gp_real, threads=1, seed=7_gp_int64, &
                               jitter=0.05_gp_real))
     call sim%add_material(gp_material(grain_diameter=0.001_gp_real, mu_s=0.4_gp_real), id=beads)
     call sim%add_column(gp_column(width=0.08_gp_real, height=0.064_gp_real, material=beads))
