@@ -20,8 +20,6 @@ _LOOK = 0.1  # s of wall-clock time between looks at signals and progress bars
 
 _ran_threads = False  # this process has run a simulation with more threads than one
 _forked_after = False  # so had its parent, before the fork
-
-
 _main_thread = threading.main_thread().ident  # the one in which Python's signal handlers run
 
 
