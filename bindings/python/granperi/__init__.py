@@ -1,0 +1,37 @@
+"""granperi: dry granular flow in two dimensions, from first slip to full arrest.
+
+The Python side of the C library of that name. Start with help(granperi.Simulation); pictures are in granperi.plot.
+"""
+from ._compare import Difference, compare
+from ._enums import Density, Field, InitialPressure, Preset, StepLimit, Stress, Wall
+from ._errors import (ArgumentError, ArgumentTypeError, DivergedError, Error, FileError, GranperiWarning, InternalError,
+                      OutOfMemoryError, StateError, UnsupportedError, VersionError)
+from ._estimate import Estimate, estimate
+from ._library import lib as _lib
+from ._library import text_of as _text_of
+from ._objects import Column, Config, Material, Plate
+from ._output import Output
+from ._result import Result, Snapshot
+from ._scene import Run, Scene, SceneError
+from ._simulation import Simulation
+from ._state import History, Load, PlanEntry, State
+from ._views import FieldView, Particles, View
+
+#: Version of the C library that runs, which is that of the package, too.
+__version__ = _text_of(_lib.gp_version_string())
+
+
+def has_feature(name: str) -> bool:
+    """Whether the library was built with "hdf5" or "openmp"; False for other names."""
+    return isinstance(name, str) and bool(_lib.gp_has_feature(name.encode("utf-8", "replace").replace(b"\0", b"?")))
+
+
+load = Simulation.load
+
+__all__ = [
+    "ArgumentError", "ArgumentTypeError", "Column", "Config", "Density", "Difference", "DivergedError", "Error",
+    "Estimate", "Field", "FieldView", "FileError", "GranperiWarning", "History", "InitialPressure", "InternalError",
+    "Load", "Material", "OutOfMemoryError", "Output", "Particles", "PlanEntry", "Plate", "Preset", "Result", "Run",
+    "Scene", "SceneError", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",
+    "UnsupportedError", "VersionError", "View", "Wall", "compare", "estimate", "has_feature", "load",
+]

@@ -1,0 +1,59 @@
+"""The scene in a checkpoint: what Python wants to know of a simulation that it has not built itself."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._errors import FileError
+from ._objects import Column, Config, Material, Plate
+
+
+def scene_in(path: str) -> tuple[Config, list[Material], "list[Column | int]", list[Plate]]:
+    """Config, materials, columns (of a set of particles the material only) and plates of a checkpoint."""
+    try:
+        import h5py
+    except ImportError:
+        raise ImportError("what scene a checkpoint has is read with h5py (Debian: python3-h5py); or give load() the "
+                          "config of the simulation that was saved") from None
+    try:
+        with h5py.File(path, "r") as file:
+            attributes = {name + "_" * (name == "nonlocal"): value for name, value in file["config"].attrs.items()}
+            config = Config(attributes.pop("preset"), **{name: _plain(attributes[name]) for name in attributes
+                                                         if name in Config.names()})
+            materials = [Material(**row) for row in _rows(file["materials"], Material.names())]
+            columns = [_column(row) for row in _rows(file["bodies"], _BODY)]
+            return config, materials, columns, _plates(file["plates"])
+    except (OSError, KeyError) as error:
+        raise FileError(f"{path}: the scene in this checkpoint cannot be read: {error}") from None
+
+
+_BODY = ("material", "is_column", "initial_pressure", "x_min", "y_min", "width", "height", "column_vx", "column_vy")
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, (np.ndarray, np.generic)) else value
+
+
+def _rows(group: Any, names: tuple[str, ...]) -> list[dict[str, Any]]:
+    table = [group[name][()].tolist() for name in names]
+    return [dict(zip(names, row)) for row in zip(*table)]
+
+
+def _column(row: dict[str, Any]) -> "Column | int":
+    if not row.pop("is_column"):
+        return row["material"]
+    row["vx"], row["vy"] = row.pop("column_vx"), row.pop("column_vy")
+    return Column(**row)
+
+
+def _plates(group: Any) -> list[Plate]:
+    knots = [group[name][()] for name in Plate._arrays]
+    plates, begin = [], 0
+    numbers = tuple(name for name in Plate.names() if name not in Plate._arrays)
+    for row, n in zip(_rows(group, numbers), group["n_knots"][()].tolist()):
+        if n:
+            row.update({name: values[begin:begin + n] for name, values in zip(Plate._arrays, knots)})
+        plates.append(Plate(**row))
+        begin += n
+    return plates

@@ -1,0 +1,72 @@
+"""Two results beside each other."""
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from ._errors import ArgumentError
+from ._result import Result, Snapshot, snapshot
+
+
+@dataclasses.dataclass(frozen=True)
+class Difference:
+    """One quantity of two results at one time."""
+
+    time: float
+    name: str
+    unit: str
+    first: float
+    second: float
+
+    @property
+    def difference(self) -> float:
+        return self.second - self.first
+
+
+def compare(first: Any, second: Any, times: Any = None) -> list[Difference]:
+    """Peak, fronts, centre of mass, and the distance of particles of the same id, at the given times [s] (of result files)
+    or, without, at the last one. Sources: results, their paths, simulations or snapshots."""
+    rows: list[Difference] = []
+    for time in [None] if times is None else np.atleast_1d(times):
+        rows += _at_one_time(snapshot(first, time), snapshot(second, time))
+    return rows
+
+
+def _at_one_time(first: Snapshot, second: Snapshot) -> list[Difference]:
+    time = first.time
+
+    def row(name: str, unit: str, a: float, b: float) -> Difference:
+        return Difference(time, name, unit, float(a), float(b))
+
+    a, b = first.state, second.state
+    rows = [row("time", "s", first.time, second.time), row("particles", "", len(first.x), len(second.x))]
+    rows += [row(name, "m", getattr(a, name), getattr(b, name)) for name in ("peak_height", "peak_x", "x_left", "x_right")]
+    if len(first.x) and len(second.x):
+        rows += [row("centre_x", "m", first.x.mean(), second.x.mean()),
+                 row("centre_y", "m", first.y.mean(), second.y.mean())]
+    if len(first.x) == len(second.x) and len(first.x):
+        apart = np.hypot(second.x - first.x, second.y - first.y)
+        rows += [row("particles_apart_rms", "m", 0, np.sqrt((apart**2).mean())),
+                 row("particles_apart_max", "m", 0, apart.max())]
+    return rows
+
+
+def same_bits(first: "Result | str", second: "Result | str") -> bool:
+    """Whether two result files have the same frames to the last bit."""
+    one, other = (source if isinstance(source, Result) else Result(source) for source in (first, second))
+    if len(one) != len(other) or one.fields != other.fields:
+        return False
+    if not len(one):
+        raise ArgumentError("there are no frames to compare")
+    return np.array_equal(one.times, other.times) and all(
+        np.array_equal(a.field(name), b.field(name), equal_nan=True) for a, b in zip(one, other) for name in one.fields)
+
+
+def table(rows: list[Difference]) -> str:
+    """The rows as text."""
+    lines = [f"{'quantity':<22}{'first':>14}{'second':>14}{'difference':>14}"]
+    lines += [f"{row.name + (f' ({row.unit})' if row.unit else ''):<22}{row.first:>14.6g}{row.second:>14.6g}"
+              f"{row.difference:>14.3g}" for row in rows]
+    return "\n".join(lines)

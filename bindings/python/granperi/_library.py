@@ -1,0 +1,20 @@
+"""The compiled layer: ffi, lib, and a text that says what to do where they cannot be loaded."""
+from __future__ import annotations
+
+try:
+    from granperi._granperi import ffi, lib
+except ImportError as error:
+    if "libgranperi" in str(error):
+        what = ("the C library granperi was not found. Install it (cmake --install build, then sudo ldconfig), or name the "
+                "directory of libgranperi.so.0 in LD_LIBRARY_PATH")
+    else:
+        what = ("the extension module granperi._granperi is missing. Build it: pip install --no-build-isolation --no-index "
+                "bindings/python, or cmake -DGRANPERI_BUILD_PYTHON=ON and PYTHONPATH=build/python")
+    raise ImportError(f"granperi: {what} ({error})", name=error.name, path=error.path) from error
+
+__all__ = ["ffi", "lib", "text_of"]
+
+
+def text_of(pointer) -> str:
+    """A C string as str; the library's texts are UTF-8 (paths in them may not be)."""
+    return ffi.string(pointer).decode("utf-8", "replace")

@@ -1,0 +1,331 @@
+"""Config, Material, Column and Plate: keyword objects whose defaults are the library's own."""
+from __future__ import annotations
+
+import copy
+import enum
+import inspect
+import keyword
+import math
+from typing import Any, Iterator
+
+import numpy as np
+
+from ._enums import Density, InitialPressure, Preset, Stress, Wall, choice
+from ._errors import ArgumentError, ArgumentTypeError, check, doubles, near_match, number, pointer, whole
+from ._library import ffi, lib
+
+
+class Parameters:
+    """What the keyword objects share: one attribute per field of the library's struct.
+
+    An unknown name is an error that lists the valid ones; numbers are checked by the library when the object is used.
+    """
+
+    _struct: str
+    _enums: dict[str, type[enum.IntEnum]] = {}
+    _arrays: tuple[str, ...] = ()  # all of one length, in the field _length
+    _length = ""
+    _values: dict[str, Any]
+
+    def __init__(self, **values: Any):
+        object.__setattr__(self, "_values", dict(self._defaults()))
+        for name, value in values.items():
+            self._set(name, value)
+
+    @classmethod
+    def _defaults(cls) -> dict[str, Any]:
+        return _defaults_of(cls)
+
+    def _own_defaults(self) -> dict[str, Any]:
+        return self._defaults()
+
+    @classmethod
+    def names(cls) -> tuple[str, ...]:
+        """The names of all parameters, in the library's order."""
+        return tuple(cls._defaults())
+
+    def _set(self, name: str, value: Any) -> None:
+        if name not in self._values:
+            raise ArgumentTypeError(_unknown(type(self).__name__, name, self._values))
+        full = f"{self._struct}.{name}"
+        if name in self._arrays:
+            value = None if value is None else doubles(full, value).copy()
+        elif name in self._enums:
+            value = choice(self._enums[name], full, value)
+        elif isinstance(self._defaults()[name], float):
+            value = number(full, value)
+        else:
+            if isinstance(value, (bool, np.bool_)):
+                value = int(value)
+            value = whole(full, value)
+        self._values[name] = value
+
+    def __getattr__(self, name: str) -> Any:
+        values = object.__getattribute__(self, "__dict__").get("_values", {})
+        if name in values:
+            value = values[name]
+            kind = self._enums.get(name)
+            return kind(value) if kind and value in list(kind) else value
+        if name.startswith("__"):
+            raise AttributeError(name)
+        raise AttributeError(_unknown(type(self).__name__, name, values))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in self._values:
+            raise AttributeError(_unknown(type(self).__name__, name, self._values))
+        self._set(name, value)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._values]
+
+    def __iter__(self) -> Iterator[tuple[str, Any]]:
+        return iter(self._values.items())
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b
+                   for a, b in zip(self._values.values(), other._values.values()))  # type: ignore[attr-defined]
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        defaults = self._own_defaults()
+        shown = [f"{name}={_shown(getattr(self, name))}" for name, value in self
+                 if isinstance(value, np.ndarray) or value != defaults[name] or name == "preset" and value]
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return copy.deepcopy(self._values)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        object.__setattr__(self, "_values", {**self._defaults(), **state})
+
+    def replace(self, **values: Any):
+        """A copy with some values changed."""
+        other = copy.deepcopy(self)
+        for name, value in values.items():
+            other._set(name, value)
+        return other
+
+    def _fill(self):
+        """The struct, and what has to live as long as it."""
+        struct = _initialised(self._struct, *self._init_arguments())
+        keep = []
+        lengths = {name: len(self._values[name]) for name in self._arrays if self._values[name] is not None}
+        if lengths:
+            if len(set(lengths.values())) > 1 or len(lengths) < len(self._arrays):
+                missing = [name for name in self._arrays if name not in lengths]
+                raise ArgumentTypeError(
+                    f"{self._struct}: expected {', '.join(self._arrays)} of one length, got "
+                    + ", ".join([f"{name} of {n}" for name, n in lengths.items()] + [f"no {name}" for name in missing]))
+            setattr(struct, self._length, next(iter(lengths.values())))
+        for name, value in self._values.items():
+            if name in self._arrays:
+                if value is not None:
+                    keep.append(pointer(value))
+                    setattr(struct, name, keep[-1])
+                continue
+            field = name.rstrip("_")  # nonlocal_, because Python keeps nonlocal for itself
+            try:
+                setattr(struct, field, value)
+            except OverflowError:
+                raise ArgumentTypeError(f"{self._struct}.{field} = {value}: expected a number that fits into "
+                                        f"{ffi.sizeof(_types(self._struct)[field].type) * 8} bits"
+                                        f"{' and is not below 0' if value < 0 else ''}") from None
+        return struct, keep
+
+    def _init_arguments(self) -> tuple:
+        return ()
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"<{len(value)} values>"
+    return repr(value.name.lower()) if isinstance(value, enum.Enum) else repr(value)
+
+
+def _unknown(owner: str, name: str, valid) -> str:
+    return f"{owner} has no '{name}': {near_match(name, valid)}"
+
+
+def _types(struct: str) -> dict:
+    return dict(ffi.typeof(struct).fields)
+
+
+def _initialised(name: str, *more):
+    struct = ffi.new(name + " *")
+    check(getattr(lib, name + "_init")(struct, ffi.sizeof(name), *more))
+    return struct
+
+
+_cache: dict[Any, dict[str, Any]] = {}
+
+
+def _defaults_of(cls, *more) -> dict[str, Any]:
+    """Every parameter with the library's default; arrays are None, their length is no parameter of its own."""
+    key = (cls, *more)
+    if key not in _cache:
+        struct = _initialised(cls._struct, *more)
+        _cache[key] = {name + "_" * keyword.iskeyword(name): None if name in cls._arrays else getattr(struct, name)
+                       for name in _types(cls._struct) if name not in ("struct_size", cls._length)}
+    return _cache[key]
+
+
+def _signed(cls):
+    """Shows the parameters and their defaults in help() and in the hints of editors."""
+    parameters = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=value,
+                                    annotation=cls.__annotations__.get(name, inspect.Parameter.empty))
+                  for name, value in cls._defaults().items()]
+    cls.__signature__ = inspect.Signature(parameters)
+    return cls
+
+
+@_signed
+class Material(Parameters):
+    """A granular material; the default is glass beads.
+
+    grain_density [kg/m3], volume_fraction, grain_diameter [m], mu_s (friction at I = 0), mu_2 (at large I), i0.
+    """
+
+    _struct = "gp_material"
+    grain_density: float
+    volume_fraction: float
+    grain_diameter: float
+    mu_s: float
+    mu_2: float
+    i0: float
+
+
+@_signed
+class Column(Parameters):
+    """A rectangle of particles: x_min, y_min, width, height [m], material, vx, vy [m/s], initial_pressure."""
+
+    _struct = "gp_column"
+    _enums = {"initial_pressure": InitialPressure}
+    x_min: float
+    y_min: float
+    width: float
+    height: float
+    material: int
+    vx: float
+    vy: float
+    initial_pressure: InitialPressure
+
+
+@_signed
+class Plate(Parameters):
+    """A floor, wall, gate or lid: the wetted line from (x0, y0) to (x1, y1) [m], material on the right of that way.
+
+    friction: "no_slip", "free_slip" or "coulomb" (then wall_mu). It is at rest, or moves at vx, vy [m/s], or by the table
+    knot_t [s], knot_x, knot_y [m] (displacements; three arrays of shape (n)), or under normal_pressure [Pa] with
+    mass_per_length [kg/m2]. floor, wall and gate make the usual ones, turned the right way.
+    """
+
+    _struct = "gp_plate"
+    _enums = {"friction": Wall}
+    _arrays = ("knot_t", "knot_x", "knot_y")
+    _length = "n_knots"
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    friction: Wall
+    wall_mu: float
+    vx: float
+    vy: float
+    knot_t: np.ndarray | None
+    knot_x: np.ndarray | None
+    knot_y: np.ndarray | None
+    normal_pressure: float
+    mass_per_length: float
+
+    @classmethod
+    def floor(cls, x_left: float, x_right: float, y: float = 0.0, **more: Any) -> "Plate":
+        """A floor at the height y [m] from x_left to x_right [m], material above it."""
+        left, right = sorted((number("x_left", x_left), number("x_right", x_right)))
+        return cls(**{"x0": right, "y0": y, "x1": left, "y1": y, **more})
+
+    @classmethod
+    def wall(cls, x: float, y_bottom: float, y_top: float, material: str = "right", **more: Any) -> "Plate":
+        """An upright wall at x [m] with the material on its "left" or "right"."""
+        if not isinstance(material, str) or material not in ("left", "right"):
+            raise ArgumentTypeError(f"material = {material!r}: expected 'left' or 'right', the wetted side of the wall")
+        ends = sorted((number("y_bottom", y_bottom), number("y_top", y_top)), reverse=material == "left")
+        return cls(**{"x0": x, "y0": ends[0], "x1": x, "y1": ends[1], **more})
+
+    @classmethod
+    def gate(cls, x: float, height: float, lift_time: float, material: str = "right", spacing: float = 0.0025,
+             **more: Any) -> "Plate":
+        """A smooth upright gate on the floor y = 0 that is lifted with uniform acceleration.
+
+        It clears the height [m] of its column within lift_time [s], and goes on until it is six spacings [m] above it.
+        """
+        values = {"height": height, "lift_time": lift_time, "spacing": spacing}
+        height, lift_time, spacing = (number(name, value) for name, value in values.items())
+        for name, value in (("height", height), ("lift_time", lift_time), ("spacing", spacing)):
+            if not 0 < value < math.inf:
+                raise ArgumentError(f"{name} = {value:g}: expected a finite number > 0")
+        clear = height + 6 * spacing
+        part = np.arange(41) / 40
+        plate = cls.wall(x, 0.0, clear, material, **{"friction": "free_slip", **more})
+        return plate.replace(knot_t=part * (lift_time * math.sqrt(clear / height)), knot_x=0 * part,
+                             knot_y=part * part * clear)
+
+
+@_signed
+class Config(Parameters):
+    """The parameters of a simulation, in SI units; lengths named so are in spacings (dl). help(Config) has all defaults.
+
+    preset: "default", "paper" or "paper_local"; the other defaults follow from it. The meaning and the range of each
+    is written at gp_config in gp.h and in the reference.
+    """
+
+    _struct = "gp_config"
+    _enums = {"preset": Preset, "stress": Stress, "density": Density}
+    spacing: float
+    gravity_x: float
+    gravity_y: float
+    sound_speed: float
+    cfl: float
+    time_step: float
+    interaction_radius: float
+    horizon: float
+    horizon_length: float
+    nonlocal_: int
+    stress: Stress
+    density: Density
+    friction_factor: float
+    delta: float
+    collision_distance: float
+    zero_energy_penalty: float
+    density_diffusion: float
+    channel_width: float
+    channel_friction: float
+    periodic_x_min: float
+    periodic_x_max: float
+    threads: int
+    seed: int
+    jitter: float
+    preset: Preset
+    bulk_viscosity: float
+    implicit_tolerance: float
+    implicit_iterations: int
+    allow_unstable_step: int
+    retry_halvings: int
+
+    def __init__(self, preset: "int | str | Preset" = Preset.DEFAULT, **values: Any):
+        chosen = choice(Preset, "gp_config.preset", preset)
+        object.__setattr__(self, "_values", dict(_defaults_of(type(self), chosen)))
+        for name, value in values.items():
+            self._set(name, value)
+
+    @classmethod
+    def _defaults(cls) -> dict[str, Any]:
+        return _defaults_of(cls, int(Preset.DEFAULT))
+
+    def _own_defaults(self) -> dict[str, Any]:
+        return _defaults_of(Config, self._values["preset"])
+
+    def _init_arguments(self) -> tuple:
+        return (self._values["preset"],)

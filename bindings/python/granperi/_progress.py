@@ -1,0 +1,47 @@
+"""The progress bar of a run."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ._library import ffi, lib
+
+if TYPE_CHECKING:
+    from ._simulation import Simulation
+
+
+class Progress:
+    """with Progress(sim, t_end): a bar over simulated time while the block runs; nothing if not shown."""
+
+    def __init__(self, sim: "Simulation", t_end: float, shown: bool = True):
+        self._sim, self._t_end, self._shown = sim, t_end, shown
+        self._bar: Any = None
+
+    def __enter__(self) -> "Progress":
+        if not self._shown:
+            return self
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            raise ImportError("a progress bar needs tqdm (Debian: python3-tqdm); or run with progress=False") from None
+        self._bar = tqdm(total=self._t_end, initial=self._time(), unit="s", desc="simulated",
+                         bar_format="{desc} {n:.3f}/{total:g} s |{bar}| {percentage:3.0f} % [{elapsed}<{remaining}]")
+        self._before = self._sim._engine.on_look
+        self._sim._engine.on_look = self._update
+        return self
+
+    def _time(self) -> float:
+        struct = ffi.new("gp_state *")
+        struct.struct_size = ffi.offsetof("gp_state", "step")  # the clock alone, but the library measures it all
+        lib.gp_get_state(self._sim._engine.sim, struct)
+        return struct.time
+
+    def _update(self) -> None:
+        self._bar.n = min(self._time(), self._t_end)
+        self._bar.refresh()
+
+    def __exit__(self, *error: object) -> None:
+        if self._bar is not None:
+            self._sim._engine.on_look = self._before
+            if not self._sim.closed:
+                self._update()
+            self._bar.close()

@@ -1,0 +1,308 @@
+"""Result files, and one look at a simulation or at a frame of a file alike."""
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING, Any, Iterator
+
+import numpy as np
+
+from ._enums import FIELD_NAMES, StepLimit
+from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
+from ._objects import Material, Plate
+from ._simulation import Simulation
+from ._state import _STATE_NAMES, History, State
+
+if TYPE_CHECKING:
+    import h5py
+
+_VECTORS = {"x": ("position", 0), "y": ("position", 1), "vx": ("velocity", 0), "vy": ("velocity", 1)}
+DERIVED = ("speed", "shear_stress", "yielded")
+
+
+class Snapshot:
+    """Particles at one instant. The same for a simulation (as it is now) and a frame of a result file."""
+
+    time: float
+    spacing: float
+
+    def field(self, name: str) -> np.ndarray:
+        """A field of shape (n), or what follows from fields: "speed" [m/s], "shear_stress" [Pa], "yielded" (bool)."""
+        if name == "speed":
+            return np.hypot(self._read("vx"), self._read("vy"))
+        if name == "shear_stress":
+            return np.sqrt((self._read("sxx") ** 2 + self._read("syy") ** 2) / 2 + self._read("sxy") ** 2)
+        if name == "yielded":
+            friction = np.array([material.mu_s for material in self._materials()]) * self._friction_factor()
+            strength = friction[self._material_of_column()[self._read("column")]] * self._read("pressure")
+            return self.field("shear_stress") >= 0.999 * strength
+        if name not in FIELD_NAMES:
+            raise ArgumentError(f"field {name!r} does not exist: {near_match(name, [*DERIVED, *FIELD_NAMES])}")
+        return self._read(name)
+
+    @property
+    def x(self) -> np.ndarray:
+        """m, shape (n)"""
+        return self._read("x")
+
+    @property
+    def y(self) -> np.ndarray:
+        """m, shape (n)"""
+        return self._read("y")
+
+    def _read(self, name: str) -> np.ndarray:
+        raise NotImplementedError
+
+    def _shape(self) -> Simulation:
+        """A simulation of these particles, which the library is asked for fronts, surface and interface."""
+        raise NotImplementedError
+
+    def _materials(self) -> "list[Material] | tuple[Material, ...]":
+        raise NotImplementedError
+
+    def _material_of_column(self) -> np.ndarray:
+        raise NotImplementedError
+
+    def _friction_factor(self) -> float:
+        raise NotImplementedError
+
+    def plate_lines(self) -> list[tuple[float, float, float, float]]:
+        """x0, y0, x1, y1 [m] of each plate where it is now, as far as that is known."""
+        raise NotImplementedError
+
+    @property
+    def state(self) -> State:
+        """Fronts and peak; energies and clock only where the snapshot is that of a simulation."""
+        return self._shape().state
+
+    def surface(self, x) -> np.ndarray:
+        """Heights [m] of the free surface at x [m]; 0 outside the fronts."""
+        return self._shape().surface(x)
+
+    def interface(self, left: int, right: int, y) -> np.ndarray:
+        """Positions x [m] of the interface of two columns at y [m]; NaN where they do not touch."""
+        return self._shape().interface(left, right, y)
+
+
+class LiveSnapshot(Snapshot):
+    """A simulation as it is now."""
+
+    def __init__(self, sim: Simulation):
+        self._sim, self.time, self.spacing = sim, sim.time, sim.config.spacing
+
+    def _read(self, name: str) -> np.ndarray:
+        return self._sim.field(name)
+
+    def _shape(self) -> Simulation:
+        return self._sim
+
+    def _materials(self):
+        return self._sim.materials
+
+    def _material_of_column(self) -> np.ndarray:
+        return np.array([column if isinstance(column, int) else column.material for column in self._sim._columns])
+
+    def _friction_factor(self) -> float:
+        return self._sim.config.friction_factor
+
+    def plate_lines(self) -> list[tuple[float, float, float, float]]:
+        loads = [self._sim.plate_load(k) for k in range(len(self._sim._plates))]
+        return [(p.x0 + at.dx, p.y0 + at.dy, p.x1 + at.dx, p.y1 + at.dy) for p, at in zip(self._sim._plates, loads)]
+
+
+class FileSnapshot(Snapshot):
+    """A frame of a result file."""
+
+    def __init__(self, result: "Result", frame: int):
+        self._result, self._frame = result, frame
+        self.time, self.spacing = float(result.times[frame]), result.spacing
+        self._sim: Simulation | None = None
+
+    def _read(self, name: str) -> np.ndarray:
+        return self._result._read(name, self._frame)
+
+    def _shape(self) -> Simulation:
+        if self._sim is None:
+            config = dict((self._result.scene or {}).get("config", {}))
+            period = {name: config[name] for name in ("periodic_x_min", "periodic_x_max") if name in config}
+            sim = Simulation(spacing=self.spacing, threads=1, sound_speed=self._result.sound_speed, **period)
+            columns = self._read("column") if self._result.has("column") else np.zeros(len(self.x), int)
+            for column in range(columns.max(initial=0) + 1):
+                here = columns == column
+                sim.add_particles(self.x[here], self.y[here])
+            self._sim = sim
+        return self._sim
+
+    def _materials(self) -> list[Material]:
+        return [Material(**values) for values in self._result._need_scene()["materials"]]
+
+    def _material_of_column(self) -> np.ndarray:
+        return np.array(self._result._need_scene()["columns"])
+
+    def _friction_factor(self) -> float:
+        return self._result.friction_factor
+
+    def plate_lines(self) -> list[tuple[float, float, float, float]]:
+        lines = []
+        for values in (self._result.scene or {}).get("plates", []):
+            plate = Plate(**values)
+            if plate.knot_t is not None and plate.knot_x is not None and plate.knot_y is not None:
+                dx = float(np.interp(self.time, plate.knot_t, plate.knot_x))
+                dy = float(np.interp(self.time, plate.knot_t, plate.knot_y))
+            else:
+                dx, dy = plate.vx * self.time, plate.vy * self.time
+            lines.append((plate.x0 + dx, plate.y0 + dy, plate.x1 + dx, plate.y1 + dy))
+        return lines
+
+
+class Result:
+    """A result file (HDF5, H5MD layout), written from Python, C or Fortran.
+
+        with granperi.Result("collapse.h5") as result:
+            last = result[-1]
+            print(last.time, last.field("speed").max())
+
+    times [s] has the shape (number of frames). history has the states that Python has written into the file.
+    """
+
+    def __init__(self, path: "str | os.PathLike[str]"):
+        try:
+            import h5py
+        except ImportError:
+            raise ImportError("result files are read with h5py (Debian: python3-h5py)") from None
+        self.path = os.fspath(path)
+        try:
+            self._file: "h5py.File | None" = h5py.File(self.path, "r")
+        except OSError as error:
+            raise FileError(f"{self.path}: cannot be read as an HDF5 file: {error}") from None
+        try:
+            self._particles = self._file["particles/all"]
+            self.times: np.ndarray = self._particles["position/time"][()]
+            attributes = self._file["parameters"].attrs
+            self.spacing = float(attributes["spacing"])
+            self.sound_speed = float(attributes["sound_speed"])
+            self.friction_factor = float(attributes["friction_factor"])
+            self.scene: dict[str, Any] | None = json.loads(attributes["scene"]) if "scene" in attributes else None
+        except KeyError as error:
+            self._file.close()
+            raise FileError(f"{self.path}: is no result file of granperi: {error.args[0]}") from None
+
+    def close(self) -> None:
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+    def __enter__(self) -> "Result":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __getitem__(self, frame: int) -> FileSnapshot:
+        try:
+            return FileSnapshot(self, range(len(self))[frame])
+        except IndexError:
+            raise IndexError(f"frame {frame}: {self.path} has {len(self)} frames") from None
+        except TypeError:
+            raise ArgumentTypeError(f"frame = {frame!r}: expected the number of a frame") from None
+
+    def __iter__(self) -> Iterator[FileSnapshot]:
+        return (self[k] for k in range(len(self)))
+
+    def at(self, time: float) -> FileSnapshot:
+        """The frame nearest to this time [s]; an error if there is none within the usual distance of two frames."""
+        if not len(self):
+            raise ArgumentError(f"{self.path} has no frames")
+        frame = int(np.argmin(np.abs(self.times - time)))
+        usual = np.median(np.diff(self.times)) if len(self) > 1 else 0.0
+        if not abs(self.times[frame] - time) <= usual + 1e-9:
+            raise ArgumentError(f"time = {time:g} s: {self.path} has frames from {self.times[0]:g} to {self.times[-1]:g} s")
+        return self[frame]
+
+    def has(self, name: str) -> bool:
+        """Whether the file has this field."""
+        return _VECTORS.get(name, (name,))[0] in self._particles
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The names of the fields in the file."""
+        return tuple(name for name in FIELD_NAMES if self.has(name))
+
+    def _read(self, name: str, frame: int) -> np.ndarray:
+        if self._file is None:
+            raise StateError(f"{self.path} is closed")
+        if not self.has(name):
+            raise ArgumentError(f"{self.path} has no field '{name}': it has {', '.join(self.fields)}; write it with "
+                                "output(fields=...) or gp_output.fields")
+        if name in _VECTORS:
+            element, component = _VECTORS[name]
+            return self._particles[element]["value"][frame, :, component].astype(np.float64)
+        whole = self._particles[name]
+        return whole["value"][frame].astype(np.float64) if "value" in whole else whole[()]
+
+    def _need_scene(self) -> dict[str, Any]:
+        if self.scene is None:
+            raise ArgumentError(f"{self.path} does not tell its materials: only files written from Python do")
+        return self.scene
+
+    @property
+    def history(self) -> History:
+        """The states at the frames, where Python has written the file; else only clock, fronts and peak are known."""
+        if self._file is None:
+            raise StateError(f"{self.path} is closed")
+        if "observables" in self._file:
+            group = self._file["observables"]
+            columns = {name: group[name][()] if name in ("step", "time") else group[name + "/value"][()]
+                       for name in _STATE_NAMES}
+            states = [dict(zip(columns, row)) for row in zip(*columns.values())]
+            return History(_state_of(values) for values in states)
+        raise ArgumentError(f"{self.path} has no energies: only files written from Python have (Simulation.record, or "
+                            "output() with write())")
+
+    def __repr__(self) -> str:
+        return f"<granperi.Result {self.path}: {len(self)} frames>"
+
+
+_KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
+
+
+def _state_of(values: dict[str, Any]) -> State:
+    kinds = {name: _KINDS.get(name, float if State.__annotations__[name] == "float" else int) for name in values}
+    return State(**{name: kinds[name](value) for name, value in values.items()})
+
+
+Source = "Simulation | Result | Snapshot | str | os.PathLike[str]"
+
+
+def snapshot(source: Any, time: float | None = None) -> Snapshot:
+    """One look at a simulation (now), a result or its path (at this time [s], or the last frame), or a snapshot."""
+    if isinstance(source, (str, os.PathLike)):
+        source = Result(source)
+    if isinstance(source, Result):
+        return source[-1] if time is None else source.at(time)
+    if time is not None:
+        raise ArgumentError(f"time = {time}: only a result file can be looked at at another time than now")
+    if isinstance(source, Simulation):
+        return LiveSnapshot(source)
+    if isinstance(source, Snapshot):
+        return source
+    raise ArgumentTypeError(f"{source!r:.80}: expected a Simulation, a Result, a Snapshot or the path of a result file")
+
+
+def history(source: Any) -> History:
+    """The states of a history, of a result or its path, or those that a simulation has kept in frames() or record()."""
+    if isinstance(source, (str, os.PathLike)):
+        with Result(source) as result:
+            return result.history
+    if isinstance(source, Result):
+        return source.history
+    kept = source.history if isinstance(source, Simulation) else source
+    if not isinstance(kept, History):
+        raise ArgumentTypeError(f"{source!r:.80}: expected a Simulation, a History, a Result or the path of a result file")
+    if len(kept) < 2:
+        raise ArgumentError("there is no history to draw: run with `for state in sim.frames(t_end, every): ...` or "
+                            "sim.record(...)")
+    return kept

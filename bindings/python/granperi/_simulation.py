@@ -1,0 +1,425 @@
+"""Simulation: a scene, its run, and everything that is read from it."""
+from __future__ import annotations
+
+import os
+import tempfile
+import weakref
+from typing import TYPE_CHECKING, Any, Callable, Iterator
+
+import numpy as np
+
+from . import _state
+from ._checkpoint import scene_in
+from ._engine import Engine
+from ._enums import FIELD_NAMES, Field, field_names
+from ._errors import ArgumentError, ArgumentTypeError, StateError, check, doubles, number, path_bytes, pointer, whole
+from ._library import ffi, lib
+from ._objects import Column, Config, Material, Parameters, Plate
+from ._output import Output
+from ._progress import Progress
+from ._state import History, Load, PlanEntry, State
+from ._views import Particles, View
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_INTEGERS = {"id": np.int64, "column": np.int32}
+
+
+class Simulation:
+    """A granular flow in two dimensions.
+
+        with granperi.Simulation(spacing=0.0025) as sim:
+            sim.add_column(x_min=-0.04, width=0.08, height=0.05)
+            sim.add_plate(granperi.Plate.floor(-0.3, 0.3))
+            sim.run(1.0)
+            print(sim.state.peak_height)
+
+    All quantities are in SI units. What is read are copies, in the order in which particles were added, unless it is asked
+    for by view(). One simulation belongs to one thread at a time; a second thread gets StateError. Steps run without the
+    GIL. Errors are subclasses of granperi.Error with the library's text.
+    """
+
+    if TYPE_CHECKING:  # copies of the fields, shape (n), in the order of id; see the end of this file
+        id: NDArray[np.int64]
+        column: NDArray[np.int32]
+        x: NDArray[np.float64]
+        y: NDArray[np.float64]
+        vx: NDArray[np.float64]
+        vy: NDArray[np.float64]
+        pressure: NDArray[np.float64]
+        density: NDArray[np.float64]
+        sxx: NDArray[np.float64]
+        sxy: NDArray[np.float64]
+        syy: NDArray[np.float64]
+        shear_rate: NDArray[np.float64]
+        inertial_number: NDArray[np.float64]
+        viscosity: NDArray[np.float64]
+        number_density: NDArray[np.float64]
+
+    def __init__(self, config: Config | None = None, **values: Any):
+        """config: a Config, or its parameters by keyword."""
+        self._config = _taken(Config, config, values)
+        self._start(self._create())
+
+    def _create(self):
+        struct, keep = self._config._fill()
+        handle = ffi.new("gp_sim **")
+        check(lib.gp_create(struct, handle))
+        return handle[0]
+
+    def _start(self, sim) -> None:
+        self._engine = Engine(sim, self._config.threads)
+        self._engine.owner = weakref.ref(self)
+        self._materials = [Material()]
+        self._columns: list[Column | int] = []
+        self._plates: list[Plate] = []
+        self._output: Output | None = None
+        #: States that frames() and record() have kept.
+        self.history = History()
+
+    # -------------------------------------------------------------------------------------------------- life
+
+    def close(self) -> None:
+        """Frees the simulation and closes its output; arrays made from views keep its memory until they go. Closing it
+        twice does no harm."""
+        engine = self._engine
+        if engine.closed:
+            return
+        with engine.locked("close"):
+            if engine.running:
+                raise StateError("close: called from inside the simulation's callback")
+            output, self._output = self._output, None
+            try:
+                if output is not None:
+                    output._close_locked()
+            finally:
+                engine.closed = True
+                engine.callback = engine.on_look = None
+                if not engine.exports:
+                    engine.destroy()
+
+    @property
+    def closed(self) -> bool:
+        return self._engine.closed
+
+    def __enter__(self) -> "Simulation":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self.closed:
+            return "<granperi.Simulation, closed>"
+        return f"<granperi.Simulation of {self._engine.count()} particles, {len(self._plates)} plates>"
+
+    # ------------------------------------------------------------------------------------------------- scene
+
+    @property
+    def config(self) -> Config:
+        """A copy of the parameters that the simulation was made with."""
+        return self._config.replace()
+
+    @property
+    def materials(self) -> tuple[Material, ...]:
+        """Copies of the materials, by number."""
+        return tuple(material.replace() for material in self._materials)
+
+    @property
+    def plates(self) -> tuple[Plate, ...]:
+        """Copies of the plates as they were added, by number."""
+        return tuple(plate.replace() for plate in self._plates)
+
+    def add_material(self, material: Material | None = None, **values: Any) -> int:
+        """Adds a Material, or one of these parameters; returns its number. Material 0, glass beads, is always there."""
+        return self._add("material", Material, material, values, self._materials)
+
+    def add_column(self, column: Column | None = None, **values: Any) -> int:
+        """Adds a rectangle of particles; returns its number, which is the value of the field column."""
+        return self._add("column", Column, column, values, self._columns)
+
+    def add_plate(self, plate: Plate | None = None, **values: Any) -> int:
+        """Adds a floor, wall, gate or lid; returns its number."""
+        return self._add("plate", Plate, plate, values, self._plates)
+
+    def _add(self, name: str, kind: type[Parameters], given: Any, values: dict[str, Any], kept: list) -> int:
+        thing = _taken(kind, given, values)
+        number_out = ffi.new("int32_t *")
+        with self._changing("add_" + name) as engine:
+            struct, keep = thing._fill()
+            check(getattr(lib, "gp_add_" + name)(engine.sim, struct, number_out))
+            kept.append(thing)
+        return number_out[0]
+
+    def add_particles(self, x, y, vx=None, vy=None, material: int = 0) -> int:
+        """Adds a set of particles at x, y [m] with the velocities vx, vy [m/s] (both, or none: at rest), each of shape
+        (n); returns the set's number, which is the value of the field column."""
+        x = doubles("x", x)
+        y = doubles("y", y, len(x))
+        vx = None if vx is None else doubles("vx", vx, len(x))
+        vy = None if vy is None else doubles("vy", vy, len(x))
+        number_out = ffi.new("int32_t *")
+        with self._changing("add_particles") as engine:
+            check(lib.gp_add_particles(engine.sim, whole("material", material, 32), len(x), pointer(x), pointer(y),
+                                       pointer(vx), pointer(vy), number_out))
+            self._columns.append(int(material))
+        return number_out[0]
+
+    def set_plate_velocity(self, plate: int, vx: float, vy: float) -> None:
+        """Drives a plate at this velocity [m/s] from now on, from where it is; possible at any time, also in a callback."""
+        plate, vx, vy = whole("plate", plate, 32), number("vx", vx), number("vy", vy)
+        with self._engine.locked("set_plate_velocity") as engine:
+            if engine.exports and not engine.running:
+                engine.before_change("set_plate_velocity")
+            check(lib.gp_set_plate_velocity(engine.sim, plate, vx, vy))
+
+    def _changing(self, name: str):
+        engine = self._engine
+        if engine.exports and not engine.closed:
+            engine.before_change(name)
+        return engine.locked(name)
+
+    # ----------------------------------------------------------------------------------------------- running
+
+    def step(self, n: int = 1) -> bool:
+        """Takes n time steps. False if the callback stopped it before."""
+        if type(n) is not int or n >> 63:
+            n = whole("n", n)
+        with self._engine.locked("step") as engine:
+            return engine.advance("step", lib.granperi_step, n) == 0
+
+    def run(self, t_end: float, progress: bool = False) -> bool:
+        """Steps until the clock shows t_end [s] exactly. False if the callback stopped it before.
+
+        progress shows a bar (needs tqdm), in a terminal or a notebook.
+        """
+        t_end = number("t_end", t_end)
+        with self._engine.locked("run") as engine:
+            if not progress:
+                return engine.advance("run", lib.granperi_run, t_end) == 0
+            with Progress(self, t_end):
+                return engine.advance("run", lib.granperi_run, t_end) == 0
+
+    def frames(self, t_end: float, every: float, progress: bool = False) -> Iterator[State]:
+        """Runs to t_end [s] and yields the state at the start and at every multiple of `every` [s] on the way.
+
+            for state in sim.frames(1.0, 0.01):
+                print(state.time, state.kinetic)
+
+        The states are kept in sim.history. Where the callback stops the run, the iteration ends.
+        """
+        t_end, every = number("t_end", t_end), number("every", every)
+        if not 0 < every < np.inf:
+            raise ArgumentError(f"every = {every}: expected a finite number above 0")
+        return self._frames(t_end, every, progress)
+
+    def _frames(self, t_end: float, every: float, progress: bool) -> Iterator[State]:
+        state = self.state
+        if not (np.isfinite(t_end) and t_end >= state.time):
+            raise ArgumentError(f"t_end = {t_end}: expected a finite time not before the clock's {state.time} s")
+        with Progress(self, t_end, shown=progress):
+            if not self.history or self.history[-1].time < state.time:
+                self.history.append(state)
+            yield state
+            k = int(np.floor(state.time / every)) + 1
+            while state.time < t_end:
+                whole_run = self.run(min(k * every, t_end))
+                state, k = self.state, k + 1
+                if not self.history or self.history[-1].time < state.time:
+                    self.history.append(state)
+                    yield state
+                if not whole_run:
+                    return
+
+    def record(self, path: "str | os.PathLike[str]", t_end: float, every: float = 0.01, fields: Any = "default",
+               progress: bool = False, **options: Any) -> History:
+        """Runs to t_end [s] with a frame in the HDF5 file `path` at the start and every `every` [s]; see output()."""
+        history = History()
+        with self.output(path, fields=fields, **options) as output:
+            for state in self.frames(t_end, every, progress):
+                history.append(state)
+                output.write()
+        return history
+
+    def set_callback(self, callback: "Callable[[Simulation], Any] | None", every: int = 1) -> None:
+        """Has callback(sim) called after every `every`-th step; None: no longer.
+
+        A true return value stops the run. An exception stops the run and comes out of step() or run() as it was raised.
+        In the callback the simulation can be read, driven (set_plate_velocity) and written to its open output.
+        """
+        every = whole("every", every)
+        if callback is not None and not callable(callback):
+            raise ArgumentTypeError(f"callback = {callback!r}: expected a function of the simulation, or None")
+        if callback is not None and every < 1:
+            raise ArgumentError(f"every = {every}: expected a whole number >= 1")
+        with self._engine.locked("set_callback") as engine:
+            if engine.running:
+                raise StateError("set_callback: called from inside the simulation's callback")
+            engine.callback = callback
+            engine.watch.every = every if callback is not None else 0
+
+    # ----------------------------------------------------------------------------------------------- reading
+
+    @property
+    def state(self) -> State:
+        """Clock, energy ledger, shape and rest at this instant."""
+        with self._engine.locked("state") as engine:
+            return _state.read_state(engine.sim)
+
+    @property
+    def time(self) -> float:
+        """The clock, s."""
+        return self.state.time
+
+    @property
+    def n_particles(self) -> int:
+        """Number of particles n."""
+        with self._engine.locked("n_particles") as engine:
+            return engine.count()
+
+    def __len__(self) -> int:
+        return self.n_particles
+
+    @property
+    def epoch(self) -> int:
+        """Number of changes to the simulation so far: a view is valid while it is the same."""
+        with self._engine.locked("epoch") as engine:
+            return engine.epoch()
+
+    def field(self, name: str) -> np.ndarray:
+        """A copy of one field, shape (n), in the order of id: float64, id int64, column int32."""
+        names = field_names(name)
+        if len(names) != 1:
+            raise ArgumentError(f"field {name!r}: expected the name of a single field; particles() takes groups")
+        with self._engine.locked(names[0]) as engine:
+            return self._copy(engine, names[0])
+
+    @staticmethod
+    def _copy(engine: Engine, name: str) -> np.ndarray:
+        values = np.empty(engine.count())
+        check(lib.gp_copy_field(engine.sim, Field[name.upper()].value, ffi.from_buffer("double[]", values), len(values)))
+        return values.astype(_INTEGERS[name]) if name in _INTEGERS else values
+
+    def particles(self, *fields: str) -> Particles:
+        """Copies of fields, each of shape (n), in the order of id; without arguments of all of them.
+
+        Names: those of the fields, or the groups "position", "velocity", "stress" and "all".
+        """
+        names = field_names(fields or "all")
+        with self._engine.locked("particles") as engine:
+            return Particles({name: self._copy(engine, name) for name in names})
+
+    def view(self, *fields: str) -> View:
+        """Read-only views of fields without copies, in the library's own order; see View."""
+        return View(self._engine, fields or "all")
+
+    def surface(self, x) -> np.ndarray:
+        """Heights [m] of the free surface of the deposit at the stations x [m]; 0 outside its fronts. Shapes: (n)."""
+        x = doubles("x", x)
+        height = np.zeros(len(x))
+        with self._engine.locked("surface") as engine:
+            check(lib.gp_get_surface(engine.sim, len(x), pointer(x), ffi.from_buffer("double[]", height)))
+        return height
+
+    def interface(self, left: int, right: int, y) -> np.ndarray:
+        """Positions x [m] of the interface of two columns at the heights y [m]; NaN where they do not touch."""
+        left, right, y = whole("left", left, 32), whole("right", right, 32), doubles("y", y)
+        x = np.zeros(len(y))
+        with self._engine.locked("interface") as engine:
+            check(lib.gp_get_interface(engine.sim, left, right, len(y), pointer(y), ffi.from_buffer("double[]", x)))
+        return x
+
+    def plate_load(self, plate: int) -> Load:
+        """The load of the material on a plate, and the plate's displacement."""
+        plate = whole("plate", plate, 32)
+        with self._engine.locked("plate_load") as engine:
+            return _state.read_load(engine.sim, plate)
+
+    def plan(self) -> list[PlanEntry]:
+        """What the engine does for this scene and what it leaves out, with bytes and seconds."""
+        with self._engine.locked("plan") as engine:
+            return _state.read_plan(engine.sim)
+
+    # ------------------------------------------------------------------------------------------------- files
+
+    def output(self, path: "str | os.PathLike[str]", every: float = 0.0, fields: Any = "default", compression: int = 4,
+               single_precision: bool = False, append: bool = False) -> Output:
+        """Opens an HDF5 file of frames (H5MD, beside it .xdmf for ParaView); one at a time. A context manager.
+
+        every [s] > 0: a frame at the start and after the first step at or past each multiple. 0: by write() only.
+        fields: names or groups; "default" is position, velocity, pressure, stress, shear_rate and column, which is what
+        the pictures need. append: goes on with a file of this simulation, after load().
+        """
+        with self._engine.locked("output") as engine:
+            self._output = Output(self, engine, path, every, fields, compression, single_precision, append)
+            return self._output
+
+    def save(self, path: "str | os.PathLike[str]") -> None:
+        """Writes a checkpoint, from which load() goes on bit by bit."""
+        encoded = path_bytes("path", path)
+        with self._engine.locked("save") as engine:
+            check(lib.gp_save(engine.sim, encoded))
+
+    @classmethod
+    def load(cls, path: "str | os.PathLike[str]", config: Config | None = None) -> "Simulation":
+        """Goes on from a checkpoint. config: that of the saved simulation; without, it is read from the file (h5py)."""
+        self = cls.__new__(cls)
+        encoded = path_bytes("path", path)
+        sim = _loaded(encoded)
+        try:
+            scene = (config.replace(), [Material()], [], []) if config is not None else scene_in(os.fsdecode(encoded))
+            self._config = scene[0]
+        except BaseException:
+            lib.gp_destroy(sim)
+            raise
+        self._restore(sim)
+        _, self._materials, self._columns, self._plates = scene
+        return self
+
+    def _restore(self, sim) -> None:
+        self._start(sim)
+        self._engine.watch.step = self.state.step
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For pickle and copy: the checkpoint, and what Python knows of the scene. Callback, output and views stay."""
+        with tempfile.TemporaryDirectory() as directory:
+            path = os.path.join(directory, "checkpoint")
+            self.save(path)
+            with open(path, "rb") as file:
+                checkpoint = file.read()
+        return {"checkpoint": checkpoint, "config": self._config, "materials": self._materials, "columns": self._columns,
+                "plates": self._plates, "history": self.history.states}
+
+    def __setstate__(self, kept: dict[str, Any]) -> None:
+        self._config = kept["config"]
+        with tempfile.TemporaryDirectory() as directory:
+            path = os.path.join(directory, "checkpoint")
+            with open(path, "wb") as file:
+                file.write(kept["checkpoint"])
+            self._restore(_loaded(os.fsencode(path)))
+        self._materials, self._columns, self._plates = kept["materials"], kept["columns"], kept["plates"]
+        self.history = History(kept["history"])
+
+
+def _loaded(path: bytes):
+    handle = ffi.new("gp_sim **")
+    check(lib.gp_load_file(path, handle))
+    return handle[0]
+
+
+def _taken(kind: type[Parameters], given: Any, values: dict[str, Any]) -> Any:
+    """The object given, with the values given, or a new one; always one that nobody else can change."""
+    if given is None:
+        return kind(**values)
+    if not isinstance(given, kind):
+        raise ArgumentTypeError(f"expected a {kind.__name__} or its parameters by keyword, got {given!r:.80}")
+    return given.replace(**values)
+
+
+def _field_property(name: str) -> property:
+    return property(lambda self: self.field(name), doc=f"A copy of the field {name}, shape (n), in the order of id.")
+
+
+for _name in FIELD_NAMES:
+    setattr(Simulation, _name, _field_property(_name))

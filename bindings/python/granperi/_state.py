@@ -1,0 +1,150 @@
+"""What is read from a simulation: state, load on a plate, plan."""
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from ._enums import StepLimit
+from ._errors import check
+from ._library import ffi, lib, text_of
+
+
+@dataclasses.dataclass(frozen=True)
+class State:
+    """Clock, energy ledger, shape and rest of a simulation at one instant (gp_state).
+
+    Energies are in J per metre of depth, momenta in kg/s, lengths in m, times in s.
+    """
+
+    time: float
+    step: int
+    dt: float
+    n_particles: int
+    n_awake: int
+    kinetic: float
+    potential: float
+    elastic: float
+    dissipated: float
+    plate_work: float
+    energy_error: float
+    momentum_x: float
+    momentum_y: float
+    max_speed: float
+    rms_speed: float
+    x_left: float
+    x_right: float
+    peak_x: float
+    peak_height: float
+    max_pressure: float
+    at_rest: bool
+    collisions: int
+    wall_seconds: float
+    sound_speed: float
+    penalty_dissipated: float
+    wall_dissipated: float
+    diffusion_dissipated: float
+    bulk_dissipated: float
+    collision_dissipated: float
+    channel_dissipated: float
+    dt_reason: StepLimit
+    implicit_last: int
+    implicit_newton: int
+    implicit_linear: int
+    implicit_failures: int
+    implicit_residual: float
+    retries: int
+    dt_limit: float
+    max_compression: float
+
+    @property
+    def energy_initial(self) -> float:
+        """The energy that the ledger began with, J/m."""
+        return self.kinetic + self.potential + self.elastic + self.dissipated + self.plate_work + self.energy_error
+
+
+_STATE_NAMES = tuple(field.name for field in dataclasses.fields(State))
+
+
+def read_state(sim) -> State:
+    struct = ffi.new("gp_state *")
+    struct.struct_size = ffi.sizeof("gp_state")
+    check(lib.gp_get_state(sim, struct))
+    values = {name: getattr(struct, name) for name in _STATE_NAMES}
+    values["at_rest"] = bool(values["at_rest"])
+    values["dt_reason"] = StepLimit(values["dt_reason"])
+    return State(**values)
+
+
+@dataclasses.dataclass(frozen=True)
+class Load:
+    """Load on a plate over the last step: fx, fy [N/m], torque about its end 0 [N]; its displacement dx, dy [m] and the
+    impulse_x, impulse_y [N s/m] since the start."""
+
+    fx: float
+    fy: float
+    torque: float
+    dx: float
+    dy: float
+    impulse_x: float
+    impulse_y: float
+
+
+_LOAD_NAMES = tuple(field.name for field in dataclasses.fields(Load))
+
+
+def read_load(sim, plate: int) -> Load:
+    struct = ffi.new("gp_load *")
+    struct.struct_size = ffi.sizeof("gp_load")
+    check(lib.gp_get_plate_load(sim, plate, struct))
+    return Load(*(getattr(struct, name) for name in _LOAD_NAMES))
+
+
+@dataclasses.dataclass(frozen=True)
+class PlanEntry:
+    """A stage (kind 0, in the order in which they run) or a field or table (kind 1) of the engine, and why."""
+
+    name: str
+    reason: str
+    kind: int
+    active: bool
+    bytes: int
+    seconds: float
+    calls: int
+
+
+def read_plan(sim) -> list[PlanEntry]:
+    n = ffi.new("int64_t *")
+    check(lib.gp_get_plan(sim, 0, ffi.NULL, n))
+    entries = ffi.new("gp_plan_entry[]", n[0])
+    check(lib.gp_get_plan(sim, n[0], entries, n))
+    return [PlanEntry(text_of(e.name), text_of(e.reason), e.kind, bool(e.active), e.bytes, e.seconds, e.calls)
+            for e in entries]
+
+
+class History:
+    """States one after the other; history.time, history.kinetic, ... are arrays of shape (number of states)."""
+
+    def __init__(self, states=()):
+        self.states: list[State] = list(states)
+
+    def append(self, state: State) -> None:
+        self.states.append(state)
+
+    def __len__(self) -> int:
+        return len(self.states)
+
+    def __iter__(self):
+        return iter(self.states)
+
+    def __getitem__(self, k) -> State:
+        return self.states[k]
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        if name in _STATE_NAMES or name == "energy_initial":
+            return np.array([getattr(state, name) for state in self.states])
+        raise AttributeError(f"a history has no '{name}'; it has the fields of granperi.State")
+
+    def __repr__(self) -> str:
+        span = f", {self.states[0].time:g} to {self.states[-1].time:g} s" if self.states else ""
+        return f"<granperi.History of {len(self)} states{span}>"

@@ -1,0 +1,47 @@
+"""The scenario of tests/bindings/scenario.c in Python: the same particles to the last bit."""
+import numpy as np
+
+import granperi
+
+N_STEPS, EVERY = 100, 7
+
+
+def add_to_hash(value: int, values: np.ndarray) -> int:
+    """FNV-1a, 64 bits, over the bytes."""
+    for byte in values.astype("<f8").tobytes():
+        value = (value ^ byte) * 1099511628211 & 0xFFFFFFFFFFFFFFFF
+    return value
+
+
+def hash_of(sim: granperi.Simulation, lid: int) -> int:
+    value = 14695981039346656037
+    for name in ("x", "y", "vx", "vy", "pressure"):
+        value = add_to_hash(value, sim.field(name))
+    load = sim.plate_load(lid)
+    of_lid = [load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y]
+    return add_to_hash(value, np.array(of_lid))
+
+
+def main() -> None:
+    with granperi.Simulation(spacing=0.004, sound_speed=20, threads=1, seed=7, jitter=0.05) as sim:
+        beads = sim.add_material(grain_diameter=0.001, mu_s=0.4)
+        sim.add_column(width=0.08, height=0.064, material=beads)
+        k = np.arange(1, 7)
+        sim.add_particles(np.full(6, 0.12), k * 0.004, vx=np.full(6, -0.5), vy=k * 0.0625)
+
+        sim.add_plate(x0=0.3, x1=0)
+        sim.add_plate(y1=0.1, friction="free_slip")
+        lid = sim.add_plate(x0=0, y0=0.066, x1=0.06, y1=0.066, friction="coulomb")
+        sim.add_plate(x0=0.08, x1=0.08, y0=0.1, friction="free_slip", knot_t=[0, 0.005, 0.01, 0.015, 0.02],
+                      knot_x=[0] * 5, knot_y=[0, 0.001, 0.004, 0.009, 0.016])
+
+        # The lid sinks faster and faster: 4 m/s2.
+        sim.set_callback(lambda sim: sim.set_plate_velocity(lid, 0, -4 * sim.time), EVERY)
+        for _ in range(3):
+            sim.step(N_STEPS)
+            state = sim.state
+            print(f"step {state.step} particles {state.n_particles} hash {hash_of(sim, lid):016x}")
+
+
+if __name__ == "__main__":
+    main()
