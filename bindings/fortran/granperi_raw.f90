@@ -501,6 +501,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> A floor, wall, gate or lid. Its table of displacements is copied.
         function gp_add_plate(sim, plate, id) bind(c, name="gp_add_plate") result(answer)
             import
             type(c_ptr), value :: sim
@@ -598,6 +599,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> The state at this instant; state->struct_size has to be set.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
@@ -631,6 +633,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> What the material does to a plate, and where the plate has got to; load->struct_size has to be set.
         function gp_get_plate_load(sim, plate, load) bind(c, name="gp_get_plate_load") result(answer)
             import
             type(c_ptr), value :: sim

@@ -264,6 +264,7 @@ GP_API gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id
 GP_API gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y,
                                   const double *vx, const double *vy, int32_t *id);
 
+/* A floor, wall, gate or lid. Its table of displacements is copied. */
 GP_API gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 
 /* The host drives the plate at this velocity (m/s) from now on, from where it is; replaces constant velocity or table.
@@ -430,6 +431,7 @@ typedef struct gp_state {
     double max_compression;        /* largest density over the material's own so far, less 1 */
 } gp_state;
 
+/* The state at this instant; state->struct_size has to be set. */
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
 
 /* Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction (radius 2 dl)
@@ -449,6 +451,7 @@ typedef struct gp_load {
     double impulse_x, impulse_y; /* N s/m, integral of fx and fy over time since the start */
 } gp_load;
 
+/* What the material does to a plate, and where the plate has got to; load->struct_size has to be set. */
 GP_API gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load);
 
 typedef struct gp_plan_entry {
