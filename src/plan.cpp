@@ -205,7 +205,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         kept += bytes_of(field);
     optional("kept_fields", true, "a step that diverges is taken back", "", kept);
     common("cells", world.grid.bytes());
-    common("neighbor_lists", world.neighbors.bytes());
+    common("neighbor_lists", world.neighbors.bytes() + world.list_origin.bytes());
     entries.push_back(field_entry("images", t.particles && t.periodic,
                                   t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
                                   world.images.bytes()));

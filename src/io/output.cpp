@@ -1,6 +1,7 @@
 #include "io/output.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <vector>
 
 #include "check.hpp"
@@ -28,6 +29,7 @@ void check_options(const gp_output &o) {
                          GP_FIELD_ALL);
     require_choice("gp_output.compression", o.compression, 10);
     require_choice("gp_output.single_precision", o.single_precision, 2);
+    require_choice("gp_output.append", o.append, 2);
 }
 
 } // namespace
@@ -78,15 +80,18 @@ FrameHeader header_of(const World &world) {
 
 struct Output::Impl {
     gp_output options;
+    std::string path;           // absolute
     std::vector<uint32_t> bits; // of the components that change, in the order of the file
     std::vector<std::vector<double>> values;
     std::unique_ptr<FrameFile> file;
     int64_t next = 0; // the next frame by itself is due at next * every_seconds
 };
 
-Output::Output(const std::string &path, const gp_output &options, const World &world) : impl_(new Impl) {
+Output::Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off)
+    : impl_(new Impl) {
     check_options(options);
     impl_->options = options;
+    impl_->path = std::filesystem::absolute(path).lexically_normal().string();
     uint32_t asked = options.fields | GP_FIELD_ID | GP_FIELD_POSITION;
     if (asked & GP_FIELD_VELOCITY)
         asked |= GP_FIELD_VELOCITY;
@@ -147,11 +152,15 @@ void Output::close() {
     impl_->file->close();
 }
 
+OutputPosition Output::position(const World &world) const {
+    return {impl_->path, impl_->options.every_seconds, impl_->next, impl_->file->frames(), world.clock.step};
+}
+
 #else
 
 struct Output::Impl {};
 
-Output::Output(const std::string &, const gp_output &options, const World &) {
+Output::Output(const std::string &, const gp_output &options, const World &, const OutputPosition &) {
     check_options(options);
     throw make_error(GP_E_UNSUPPORTED, "gp_output_open: this build has no HDF5");
 }
@@ -159,6 +168,9 @@ Output::~Output() = default;
 void Output::step_done(const World &) {}
 void Output::write(const World &) {}
 void Output::close() {}
+OutputPosition Output::position(const World &) const {
+    return {};
+}
 
 #endif
 
