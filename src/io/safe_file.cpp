@@ -95,6 +95,17 @@ void sync_directory(const std::string &path) {
         fail(path, "sync its directory", errno);
 }
 
+int open_regular(const std::string &path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat status;
+    if (fd < 0)
+        fail(path, "open the file", errno);
+    if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode))
+        return fd;
+    ::close(fd);
+    throw make_error(GP_E_IO, "%s: cannot open the file: not a regular file", path.c_str());
+}
+
 } // namespace
 
 std::string replaceable_path(const std::string &path) {
@@ -141,13 +152,15 @@ void replace_file(const std::string &path, const unsigned char *bytes, std::size
     sync_directory(target);
 }
 
+void require_regular_file(const std::string &path) {
+    const Descriptor file(open_regular(path));
+}
+
 std::vector<unsigned char> read_file(const std::string &path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    const Descriptor file(open_regular(path));
     struct stat status;
-    if (file < 0 || ::fstat(file, &status) != 0)
-        fail(path, "open the file", errno);
-    if (!S_ISREG(status.st_mode))
-        throw make_error(GP_E_IO, "%s: cannot open the file: not a regular file", path.c_str());
+    if (::fstat(file, &status) != 0)
+        fail(path, "read the file", errno);
     std::vector<unsigned char> bytes(static_cast<std::size_t>(status.st_size));
     for (std::size_t done = 0; done < bytes.size();) {
         const ssize_t n = ::read(file, bytes.data() + done, bytes.size() - done);

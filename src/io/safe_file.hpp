@@ -19,6 +19,9 @@ void replace_file(const std::string &path, const unsigned char *bytes, std::size
 // Renames a file that is on the disk into the place of another, and has the directory remember it.
 void move_into_place(const std::string &from, const std::string &path);
 
+// Throws gp::Error(GP_E_IO) if there is no regular file of that name that may be read.
+void require_regular_file(const std::string &path);
+
 // All of a regular file. Throws gp::Error(GP_E_IO).
 std::vector<unsigned char> read_file(const std::string &path);
 
