@@ -132,6 +132,9 @@ void write_world(CheckpointWriter &file, const World &world) {
 
 // ------------------------------------------------------------------------------------------------------ loading
 
+// Steps and the like that no run comes to, and that can still be counted on from.
+constexpr int64_t most_counted = int64_t{1} << 62;
+
 // Checks of what the host's own checks do not see: that tables fit together and indices stay within.
 class Checker {
 public:
@@ -276,7 +279,7 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
         check.finite("ledger", value);
     for (const int64_t number : {c.step, w.collisions, w.retries, w.viscous.newton, w.viscous.linear,
                                  w.viscous.failures, static_cast<int64_t>(w.viscous.last)})
-        check.require(number >= 0, "a count below 0");
+        check.require(number >= 0 && number < most_counted, "a count out of bounds");
     for (const double value : {w.max_compression, w.plastic_power, w.unbalanced_share})
         check.finite("sums", value);
     check.not_negative("velocity_span", w.velocity_span);
@@ -411,7 +414,8 @@ OutputPosition read_position(CheckpointReader &file, const Checker &check) {
     PositionTable t;
     exchange_position(file, t);
     check.not_negative("output/every_seconds", t.at.every_seconds);
-    check.require(t.at.next >= 0 && t.at.frames >= 0 && t.at.step >= 0, "output: a count below 0");
+    for (const int64_t number : {t.at.next, t.at.frames, t.at.step})
+        check.require(number >= 0, "output: a count below 0");
     check.require(t.path.size() < 1 << 16, "output: a path of more than 65535 bytes");
     t.at.path.assign(t.path.begin(), t.path.end());
     return t.at;

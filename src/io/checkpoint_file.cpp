@@ -93,6 +93,12 @@ void check_bytes(const std::string &path, const std::vector<unsigned char> &byte
 
 } // namespace
 
+void seal(std::vector<unsigned char> &file, uint32_t format) {
+    const std::string text = text_without_checksum(format, gp_version_string(), file.size());
+    const std::string whole = whole_text(text, checksum_of(text, file));
+    std::copy(whole.begin(), whole.end(), file.begin());
+}
+
 // ------------------------------------------------------------------------------------------------------ writing
 
 CheckpointWriter::CheckpointWriter(const std::string &file_path) {
@@ -126,9 +132,7 @@ std::vector<unsigned char> CheckpointWriter::bytes() {
     std::vector<unsigned char> whole(text_size + static_cast<std::size_t>(size));
     check(H5Fget_file_image(file, whole.data() + text_size, static_cast<std::size_t>(size)), "make the checkpoint");
     file.close();
-    const std::string text = text_without_checksum(checkpoint_format, gp_version_string(), whole.size());
-    const std::string first = whole_text(text, checksum_of(text, whole));
-    std::copy(first.begin(), first.end(), whole.begin());
+    seal(whole);
     return whole;
 }
 

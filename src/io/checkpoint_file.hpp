@@ -23,6 +23,9 @@ namespace gp::io {
 
 constexpr uint32_t checkpoint_format = 1;
 
+// Writes the text in front of a whole file, whose first 512 bytes are free for it.
+void seal(std::vector<unsigned char> &file, uint32_t format = checkpoint_format);
+
 template <class T> hid_t stored_type() {
     if constexpr (std::is_same_v<T, double>)
         return H5T_IEEE_F64LE;

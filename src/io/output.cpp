@@ -130,6 +130,11 @@ double reached_time(const World &world) {
     return world.clock.time + 1e-9 * world.clock.dt;
 }
 
+int64_t next_multiple(double time, double every) {
+    const double passed = std::floor(time / every);
+    return passed < 0x1p62 ? static_cast<int64_t>(passed) + 1 : INT64_MAX; // of a tiny one, every step passes some
+}
+
 } // namespace
 
 Output::Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off)
@@ -192,7 +197,7 @@ Output::Output(const std::string &path, const gp_output &options, const World &w
     if (own_position && left_off.every_seconds == options.every_seconds)
         impl_->next = left_off.next;
     else if (options.every_seconds > 0)
-        impl_->next = static_cast<int64_t>(std::floor(reached_time(world) / options.every_seconds)) + 1;
+        impl_->next = next_multiple(reached_time(world), options.every_seconds);
 }
 
 Output::~Output() = default;
@@ -208,7 +213,7 @@ void Output::step_done(const World &world) {
     const double reached = reached_time(world);
     if (every <= 0 || reached < static_cast<double>(impl_->next) * every)
         return;
-    impl_->next = static_cast<int64_t>(std::floor(reached / every)) + 1;
+    impl_->next = next_multiple(reached, every);
     write(world);
 }
 
