@@ -343,6 +343,11 @@ void read_particles(CheckpointReader &file, const Checker &check, const Scene &s
         check.same_size("particles", *field, all);
         check.all_finite("particles", *field);
     }
+    for (std::size_t k = 0; k < all; ++k) {
+        const double own = w.material_of(static_cast<int64_t>(k)).density;
+        check.require(stages::is_bounded_density(p.density[k] / own), format_text("a density of %g kg/m3", p.density[k]));
+        check.require(p.pressure[k] >= 0, format_text("a pressure of %g Pa", p.pressure[k]));
+    }
     check.same_size("syy", p.syy, trace ? all : 0);
     check.all_finite("syy", p.syy);
     for (auto *field : {&p.lxx, &p.lxy, &p.lyx, &p.lyy})

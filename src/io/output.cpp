@@ -141,7 +141,8 @@ Output::Output(const std::string &path, const gp_output &options, const World &w
     : impl_(new Impl) {
     check_options(options);
     impl_->options = options;
-    impl_->path = std::filesystem::absolute(path).lexically_normal().string();
+    std::error_code none; // of a path that names no file: opening it says so
+    impl_->path = std::filesystem::absolute(path, none).lexically_normal().string();
     uint32_t asked = options.fields | GP_FIELD_ID | GP_FIELD_POSITION;
     if (asked & GP_FIELD_VELOCITY)
         asked |= GP_FIELD_VELOCITY;
