@@ -5,7 +5,8 @@
     trust.py output    --host PROGRAM          the result file of a restarted run has the frames of the unbroken one
     trust.py kill      --host PROGRAM [--count N]   SIGKILL at random moments, then the files are read and gone on with
     trust.py same_bits --host PROGRAM --static PROGRAM   threads, libraries, output, callbacks, what is not used
-    trust.py golden    --host PROGRAM --table FILE [--update]   the bits of short runs, by instruction set
+    trust.py golden    --host PROGRAM --table FILE [--level L] [--update]   the bits of short runs, by instruction set
+    trust.py levels                            the instruction sets that this processor has
 
 Exit status 77: this machine cannot run it.
 """
@@ -225,6 +226,9 @@ def instruction_set():
     return "x86-64"
 
 
+LEVELS = ["x86-64", "x86-64-v3", "x86-64-v4"]  # of the pair loops: GP_MULTIVERSION in src/parallel.hpp
+
+
 def golden(bench, options):
     level = options.level or instruction_set()
     table = {}
@@ -246,6 +250,9 @@ def golden(bench, options):
     if not any(own_level == level for own_level, _ in table):
         print(f"{options.table} has no bits for {level}")
         sys.exit(77)
+    # What docs/trust.md says of other processors: no two of the levels have the same bits in any scene.
+    alike = [scene for scene in SCENES if len({table.get((one, scene)) for one in LEVELS}) < len(LEVELS)]
+    require(not alike, f"docs/trust.md says that every level has its own bits, but not in {', '.join(alike)}")
     wrong = [scene for _, scene in found if table.get((level, scene)) != found[level, scene]]
     require(not wrong, f"other bits than in {options.table} for {level}: {', '.join(wrong)}. Is that meant? Then "
             "scripts/trust golden --update")
@@ -255,8 +262,8 @@ def golden(bench, options):
 def main():
     checks = {check.__name__: check for check in (restart, output, kill, same_bits, golden)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("check", choices=checks)
-    parser.add_argument("--host", required=True)
+    parser.add_argument("check", choices=[*checks, "levels"])
+    parser.add_argument("--host")
     parser.add_argument("--static")
     parser.add_argument("--count", type=int, default=8)
     parser.add_argument("--seed", type=int, default=1)
@@ -264,6 +271,9 @@ def main():
     parser.add_argument("--level")
     parser.add_argument("--update", action="store_true")
     options = parser.parse_args()
+    if options.check == "levels":  # that this processor has
+        print(*LEVELS[:LEVELS.index(instruction_set()) + 1])
+        return
     if options.check in ("output", "kill") and not h5py:
         print("python3-h5py is not there")
         sys.exit(77)
