@@ -246,7 +246,8 @@ void Sim::set_world(std::unique_ptr<World> world) {
 
 Progress Sim::progress() const {
     if (half_done_)
-        throw make_error(GP_E_STATE, "gp_save: the last step ran out of memory half-way; an earlier checkpoint is good");
+        throw make_error(GP_E_STATE,
+                         "gp_save: the last step ran out of memory half-way; an earlier checkpoint is good");
     return {started_, diverged_, warnings_.told(), epoch_, wall_seconds_};
 }
 
