@@ -40,8 +40,4 @@ inline void require_pointer(const char *name, const void *pointer) {
         throw make_error(GP_E_ARGUMENT, "%s = NULL: expected a pointer", name);
 }
 
-[[noreturn]] inline void unsupported(const char *option, const char *what) {
-    throw make_error(GP_E_UNSUPPORTED, "%s: %s is not in this version", option, what);
-}
-
 } // namespace gp
