@@ -161,10 +161,12 @@ gp_status Sim::run(gp_sim *handle, double t_end) {
 
 void Sim::require_unstarted(const char *call) const {
     if (started_)
-        throw make_error(GP_E_STATE, "%s: the scene is fixed once the first step is taken (step %lld)", call,
+        throw make_error(GP_E_STATE,
+                         "%s: the scene is fixed once the first step is taken (step %lld): add to it before", call,
                          static_cast<long long>(world_->clock.step));
     if (sink)
-        throw make_error(GP_E_STATE, "%s: the scene is fixed while an output is open", call);
+        throw make_error(GP_E_STATE,
+                         "%s: the scene is fixed while an output is open: add to it before, or close the output", call);
 }
 
 void Sim::scene_changed() {

@@ -14,6 +14,8 @@ PAGES = {
                               "OutOfMemoryError", "SceneError", "StateError", "UnsupportedError", "VersionError",
                               "GranperiWarning"]),
 }
+OF_C = {"Config": "gp_config", "Material": "gp_material", "Column": "gp_column", "Plate": "gp_plate", "State": "gp_state",
+        "Load": "gp_load", "PlanEntry": "gp_plan_entry", "Particles": "gp_particles"}
 PICTURES = ["field", "surface", "interface", "energy", "fronts", "compare", "animate"]
 
 
@@ -26,7 +28,10 @@ def of_name(name, thing):
         return [".. autofunction:: " + name, ""]
     short = issubclass(thing, BaseException)
     members = ["   :members:", "   :undoc-members:"] if not short else ["   :show-inheritance:"]
-    return [(".. autoexception:: " if short else ".. autoclass:: ") + name, *members, ""]
+    lines = [(".. autoexception:: " if short else ".. autoclass:: ") + name, *members, ""]
+    if name in OF_C:
+        lines += ["   What each parameter or value means, its unit and its range: :c:struct:`%s`." % OF_C[name], ""]
+    return lines
 
 
 def write_python_reference(directory):
