@@ -123,6 +123,9 @@ def write_c_reference(header_path, cc, directory):
         if section == "version":
             of_it = numbers + of_it
         lines, shared, last = text.titled(TITLES[section]), None, 0
+        # A macro that stands for a function may have the name of a type.
+        macros = re.findall(r"#define (gp_\w+)\(", code[begin:end])
+        known = {name: role for name, role in roles.items() if name not in macros}
         for declaration in of_it:
             if isinstance(declaration, Function):
                 alone = "\n\n" in code[last:place[id(declaration)]]
@@ -130,7 +133,7 @@ def write_c_reference(header_path, cc, directory):
                     raise ReferenceError_("%s has no comment in %s" % (declaration.name, header_path))
                 shared = declaration.name if declaration.doc else shared
             last = place[id(declaration)]
-            lines += of_declaration(declaration, roles, shared)
+            lines += of_declaration(declaration, known, shared)
         pages.append(section)
         with open(os.path.join(directory, section + ".rst"), "w", encoding="utf-8") as page:
             page.write("\n".join(lines))

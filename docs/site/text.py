@@ -17,7 +17,12 @@ def escape(text):
 
 
 def linked(text, roles):
-    """Escaped, with names that roles knows (name -> role) as links."""
+    """Escaped, with names that roles knows (name -> role) as links, and `this` as code."""
+    parts = re.split(r"`([^`]+)`", text)
+    return "".join("``%s``" % part if k % 2 else with_links(part, roles) for k, part in enumerate(parts))
+
+
+def with_links(text, roles):
     pieces, end = [], 0
     for name in NAME.finditer(text):
         role = roles.get(name.group(0))
