@@ -53,16 +53,22 @@ template <class Body> gp_status guard(const Body &body) noexcept {
     }
 }
 
+void require_simulation(const gp_sim *handle) {
+    if (!handle)
+        throw make_error(GP_E_ARGUMENT,
+                         "sim = NULL: expected a simulation of gp_create or gp_load; has that call failed?");
+}
+
 // For calls that change the simulation: not possible inside its callback.
 Sim &outside_callback(gp_sim *handle, const char *call) {
-    require_pointer("sim", handle);
+    require_simulation(handle);
     if (handle->sim.in_callback())
         throw make_error(GP_E_STATE, "%s: called from inside the simulation's callback", call);
     return handle->sim;
 }
 
 Sim &readable(gp_sim *handle) {
-    require_pointer("sim", handle);
+    require_simulation(handle);
     handle->sim.prepare();
     return handle->sim;
 }
@@ -243,7 +249,7 @@ gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id) {
 
 gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy) {
     return guard([&] {
-        require_pointer("sim", sim);
+        require_simulation(sim);
         sim->sim.set_plate_velocity(plate, vx, vy);
         return GP_OK;
     });
@@ -406,7 +412,7 @@ gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int64_t *n
 
 gp_status gp_save(gp_sim *sim, const char *path) {
     return guard([&]() -> gp_status {
-        require_pointer("sim", sim);
+        require_simulation(sim);
         require_pointer("path", path);
         io::save_checkpoint(path, sim->sim, sim->output ? sim->output->position(sim->sim.world()) : sim->left_off);
         return GP_OK;
@@ -454,7 +460,7 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
 
 gp_status gp_output_write(gp_sim *sim) {
     return guard([&] {
-        require_pointer("sim", sim);
+        require_simulation(sim);
         if (!sim->output)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
         sim->output->write(readable(sim).world());
