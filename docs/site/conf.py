@@ -2,7 +2,6 @@
 import re
 
 import granperi
-from sphinx.util.docstrings import prepare_docstring  # noqa: F401  (fails early where Sphinx is too old)
 
 project = "granperi"
 copyright = "the granperi contributors"
