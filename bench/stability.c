@@ -15,7 +15,7 @@ static const char *const command_names[COMMANDS] = {"collapse", "layer", "limit_
 
 static const char usage[] =
     "usage: stability collapse|layer|limit_collapse|limit_layer [options]\n\n"
-    "collapse  a column, 0.08 m wide and 0.05 m high, collapses to both sides; --seeds: again for that many seeds\n"
+    "collapse  a column, 0.08 m wide and 0.05 m high unless said otherwise, collapses; --seeds: again for that many seeds\n"
     "layer     a layer, 0.05 m deep and periodic, that should stay at rest on its rough floor\n"
     "limit_... searches the largest stable time step of the scene\n"
     "Prints lines of \"name value unit\".\n";

@@ -34,6 +34,13 @@ static double wall_seconds(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* Linux counts in KiB. */
+static double peak_rss(void) {
+    struct rusage used;
+    getrusage(RUSAGE_SELF, &used);
+    return 1024.0 * (double)used.ru_maxrss;
+}
+
 static int64_t count_of(gp_sim *sim) {
     gp_state state;
     state.struct_size = sizeof state;
@@ -129,6 +136,8 @@ static void measure(gp_sim *sim, const choices *c) {
                    1e9 * (after[k].seconds - before[k].seconds) / particle_steps);
     }
     printf("bytes %.6g bytes/particle\n", bytes / (double)count_of(sim));
+    printf("peak_rss %.6g bytes, of the whole program so far\n", peak_rss());
+    printf("cpu_seconds %.6g s, of the whole program so far\n", cpu_seconds());
 }
 
 int main(int argc, char **argv) {
