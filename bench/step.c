@@ -1,5 +1,5 @@
 /* What a time step costs: a collapse (both_side, a = 1.25) is run to the middle of its flow, then some steps are measured.
- * docs/performance.md is made with it; bench/README.md says how to measure. */
+ * docs/hot-path.md is made with it; bench/README.md says how to measure. */
 #define _POSIX_C_SOURCE 200112L
 #include <math.h>
 #include <stdio.h>

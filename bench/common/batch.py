@@ -129,7 +129,7 @@ def run_missing(
     )
     parser.add_argument("--quick", action="store_true", help=f"only runs of an estimated {QUICK:g} CPU s or less")
     parser.add_argument("--long", action="store_true", help="also the runs that take very long")
-    parser.add_argument("--only", metavar="TEXT", help="only runs with this in their name")
+    parser.add_argument("--only", metavar="TEXT", help="only the run of this name, or runs with this in it")
     parser.add_argument("--accept-older", action="store_true", help="keep results of other states of the sources")
     parser.add_argument("--workers", type=int, default=workers, help=f"runs at a time [{workers}]")
     parser.add_argument("--list", action="store_true", help="list the runs and their estimated costs; run nothing")
@@ -140,9 +140,11 @@ def run_missing(
 
     sources = {name: source_hash(ROOT, program) for name, program in programs.items()}
     commit = commit_of(ROOT)
+    every = cheapest_first(studies)
+    named = [run for run in every if run.name == arguments.only]
     wanted = [
         run
-        for run in cheapest_first(studies)
+        for run in named or every
         if (not arguments.quick or run.cost <= QUICK)
         and (not run.long or arguments.long)
         and (not arguments.only or arguments.only in run.name)
