@@ -12,8 +12,8 @@
 
 static const char usage[] =
     "usage: features FEATURE [options]\n\n"
-    "FEATURE: none, material, gate, gone_gate, walls, side_walls, periodic, loaded_plate, coulomb, penalty, diffusion,\n"
-    "bulk_viscosity, collisions, retries, output, callback, log, default (the default scheme) or all\n"
+    "FEATURE: none, material, gate, gone_gate, walls, side_walls, periodic, loaded_plate, coulomb, penalty,\n"
+    "diffusion, bulk_viscosity, collisions, retries, output, callback, log, default (the default scheme) or all\n"
     "The block without and with the feature, some steps of one and of the other in turn. Prints lines of\n"
     "\"name value unit\".\n";
 
@@ -25,10 +25,11 @@ enum {
     NONE, MATERIAL, GATE, GONE_GATE, WALLS, SIDE_WALLS, PERIODIC, LOADED_PLATE, COULOMB, PENALTY, DIFFUSION,
     BULK_VISCOSITY, COLLISIONS, RETRIES, OUTPUT, CALLBACK, LOG, DEFAULT, ALL, FEATURES
 };
-/* clang-format on */
 static const char *const feature_names[FEATURES] = {
     "none", "material", "gate", "gone_gate", "walls", "side_walls", "periodic", "loaded_plate", "coulomb", "penalty",
     "diffusion", "bulk_viscosity", "collisions", "retries", "output", "callback", "log", "default", "all"};
+
+/* clang-format on */
 
 enum { ENTRIES_MAX = 128, REPEATS_MAX = 1000 };
 
