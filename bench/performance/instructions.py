@@ -19,8 +19,17 @@ STEPS = (60, 120)  # the difference is that of the steps alone
 def count(program: Path, feature: str, state: str, steps: int, resolution: int) -> tuple[float, float]:
     """Instructions of one run, and its number of particles."""
     with tempfile.TemporaryDirectory() as work:
-        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={work}/out", str(program), feature, "--alone", state,
-                   "--resolution", str(resolution), "--steps", str(steps), "--file", f"{work}/frames.h5"]  # fmt: skip
+        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={work}/out", str(program), feature]
+        command += [
+            "--alone",
+            state,
+            "--resolution",
+            str(resolution),
+            "--steps",
+            str(steps),
+            "--file",
+            f"{work}/frames.h5",
+        ]
         run = subprocess.run(command, capture_output=True, text=True, check=True)
         total = re.search(r"^(?:summary|totals): (\d+)", Path(work, "out").read_text(), re.M)
         particles = re.search(r"^particles (\d+)", run.stdout, re.M)

@@ -20,10 +20,12 @@ def machine(results: Collection) -> str:
     if not found:
         return "The machine was not asked for its name."
     said = dict(re.findall(r"^(processor|compiler): (.*)$", found.output, re.M))
-    caches = ", ".join(f"L{k} {found.summary[f'cache_{k}'] / 1024:.0f} KiB" for k in (1, 2, 3) if f"cache_{k}" in found.summary)
+    caches = ", ".join(
+        f"L{k} {found.summary[f'cache_{k}'] / 1024:.0f} KiB" for k in (1, 2, 3) if f"cache_{k}" in found.summary
+    )
     return (
-        f"Machine: {said.get('processor', 'unknown')}, {found.summary['cores']:.0f} cores ({caches}); {said.get('compiler', 'unknown')}; load "
-        f"{found.summary['load']:.1f} when the runs began."
+        f"Machine: {said.get('processor', 'unknown')}, {found.summary['cores']:.0f} cores ({caches}); "
+        f"{said.get('compiler', 'unknown')}; load {found.summary['load']:.1f} when the runs began."
     )
 
 
@@ -75,11 +77,13 @@ def unused(results: Collection) -> str:
     )
     counted = results(runs.instructions())
     if counted:
-        largest = max(((abs(counted.summary[key]), key) for key in runs.IDLE if key in counted.summary), default=(math.nan, ""))
+        largest = max(
+            ((abs(counted.summary[key]), key) for key in runs.IDLE if key in counted.summary), default=(math.nan, "")
+        )
         verdict = "within" if largest[0] <= NOISE else "**beyond**"
         text += (
-            f" A feature that is there with nothing to do costs at most {100 * largest[0]:.2f} % of the instructions of the step "
-            f"({runs.FEATURES[largest[1]][0]}), {verdict} {100 * NOISE:g} %."
+            f" A feature that is there with nothing to do costs at most {100 * largest[0]:.2f} % of the instructions of the "
+            f"step ({runs.FEATURES[largest[1]][0]}), {verdict} {100 * NOISE:g} %."
         )
     noise = results(runs.feature("none"))
     if noise:
@@ -98,9 +102,17 @@ def builds(results: Collection) -> str:
         r = results(runs.build(label))
         if r:
             s = r.summary
-            rows.append([label, f"{s['size_stripped'] / 1024:.0f} KiB", _needed(r), f"{s['loaded']:.0f}", fixed(s["start_cpu"], 1),
-                         fixed(s["start_wall"], 1), fixed(s["build_cpu"], 0)])  # fmt: skip
-    header = ["build", "stripped", "needs, beside libc", "libraries loaded", "start (CPU ms)", "start (ms)", "CPU s to build"]
+            times = [fixed(s["start_cpu"], 1), fixed(s["start_wall"], 1), fixed(s["build_cpu"], 0)]
+            rows.append([label, f"{s['size_stripped'] / 1024:.0f} KiB", _needed(r), f"{s['loaded']:.0f}", *times])
+    header = [
+        "build",
+        "stripped",
+        "needs, beside libc",
+        "libraries loaded",
+        "start (CPU ms)",
+        "start (ms)",
+        "CPU s to build",
+    ]
     return table(header, rows) if rows else ""
 
 
@@ -114,15 +126,25 @@ def start(results: Collection) -> str:
 
 def growth(results: Collection) -> str:
     rows = []
-    for label, runs_of, sizes in (("just released", runs.growth, runs.GROWTH), ("in flow", runs.flow, runs.FLOW)):
+    for label, runs_of, sizes in (("at rest", runs.growth, runs.GROWTH), ("in flow", runs.flow, runs.FLOW)):
         for n in sizes:
             r = results(runs_of(n))
             if r:
                 s = r.summary
                 lists = s.get("stage_update_neighbors", 0.0)
-                rows.append([label, f"{s['particles']:.0f}", fixed(s["cpu"], 0), fixed(lists, 0), seconds(s["cpu"] * s["particles"] * 1e-9),
-                             fixed(s["bytes"], 0), f"{s['peak_rss'] / 2**20:.0f} MiB", fixed(s["peak_rss"] / s["particles"], 0)])  # fmt: skip
-    header = ["", "particles", "CPU ns per particle and step", "lists (ns)", "CPU s per step", "bytes per particle, library", "peak of the program", "per particle"]
+                times = [fixed(s["cpu"], 0), fixed(lists, 0), seconds(s["cpu"] * s["particles"] * 1e-9)]
+                peak = [f"{s['peak_memory'] / 2**20:.0f} MiB", fixed(s["peak_memory"] / s["particles"], 0)]
+                rows.append([label, f"{s['particles']:.0f}", *times, fixed(s["bytes"], 0), *peak])
+    header = [
+        "",
+        "particles",
+        "CPU ns per particle and step",
+        "lists (ns)",
+        "CPU s per step",
+        "bytes per particle, library",
+        "peak of the program",
+        "per particle",
+    ]
     return table(header, rows) if rows else ""
 
 
@@ -135,18 +157,23 @@ def linear(results: Collection) -> str:
     step = np.array([r.summary["cpu"] for r in found]) * size
     power = np.polyfit(np.log(size), np.log(step), 1)[0]
     largest = found[-1].summary
-    per_particle = largest["peak_rss"] / largest["particles"]
+    per_particle = largest["peak_memory"] / largest["particles"]
     return (
-        f"From {size[0]:.0f} to {size[-1]:.0f} particles the CPU time of a step goes with the power {power:.2f} of their number. At the "
-        f"largest size the program held {largest['peak_rss'] / 2**30:.2f} GiB at its peak, {per_particle:.0f} bytes per particle, of which the library's "
-        f"plan accounts for {largest['bytes']:.0f}. At that rate 20 GiB hold {MEMORY / per_particle / 1e6:.0f} million particles (extrapolated; the largest that was run "
-        f"has {largest['particles'] / 1e6:.2f} million)."
+        f"From {size[0]:.0f} to {size[-1]:.0f} particles the CPU time of a step goes with the power {power:.2f} of their "
+        f"number. At the largest size the program held {largest['peak_memory'] / 2**30:.2f} GiB at its peak, {per_particle:.0f} "
+        f"bytes per particle, of which the library's plan accounts for {largest['bytes']:.0f}. At that rate 20 GiB hold "
+        f"{MEMORY / per_particle / 1e6:.0f} million particles (extrapolated; the largest that was run has "
+        f"{largest['particles'] / 1e6:.2f} million)."
     )
 
 
 def memory(results: Collection) -> str:
     rows = []
-    for key, resolution, label in (("default", 32, "default scheme"), ("all", 32, "all that one scene can have"), ("all", 126, "the same")):
+    for key, resolution, label in (
+        ("default", 32, "default scheme"),
+        ("all", 32, "all that one scene can have"),
+        ("all", 126, "the same"),
+    ):
         r = results(runs.feature(key, resolution=resolution))
         if r:
             s = r.summary
@@ -162,7 +189,14 @@ def threads(results: Collection) -> str:
             s = r.summary
             rows.append([f"{s['particles']:.0f}", fixed(s["wall_one"], 0), fixed(s["wall_several"], 0), fixed(s["speed_up"], 2),
                          f"{100 * s['more_cpu']:+.0f} %", significant(s["load"], 2)])  # fmt: skip
-    header = ["particles", "one thread (ns per particle and step)", "two", "speed-up", "CPU time", "load of the machine"]
+    header = [
+        "particles",
+        "one thread (ns per particle and step)",
+        "two",
+        "speed-up",
+        "CPU time",
+        "load of the machine",
+    ]
     return table(header, rows) if rows else ""
 
 
@@ -176,5 +210,9 @@ def _threads(results: Collection) -> list[str]:
         return []
     cells = ", ".join(f"{r.summary['speed_up']:.2f} ({r.summary['particles']:.0f} particles)" for r in found)
     load = max(r.summary["load"] for r in found)
-    said = "" if load < 1 else f", on a machine with a load of up to {load:.0f}, which makes them worthless: to be measured on one at rest"
+    said = (
+        ""
+        if load < 1
+        else f", on a machine with a load of up to {load:.0f}, which makes them worthless: to be measured on one at rest"
+    )
     return [f"Speed-up on two threads: {cells}{said}."]

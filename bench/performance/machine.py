@@ -2,6 +2,7 @@
 """What the figures were measured on: processor, caches, cores, compiler, load. Lines of "name value unit"."""
 from __future__ import annotations
 
+import argparse
 import os
 import re
 from pathlib import Path
@@ -26,14 +27,12 @@ def processor() -> str:
 
 
 def compiler(build: Path) -> str:
-    found = [re.search(r'set\(CMAKE_CXX_COMPILER_(ID|VERSION) "([^"]*)"\)', line)
-             for path in build.glob("CMakeFiles/*/CMakeCXXCompiler.cmake") for line in path.read_text().splitlines()]  # fmt: skip
-    return " ".join(match[2] for match in found if match) or "unknown"
+    files = list(build.glob("CMakeFiles/*/CMakeCXXCompiler.cmake"))
+    text = files[0].read_text() if files else ""
+    return " ".join(re.findall(r'set\(CMAKE_CXX_COMPILER_(?:ID|VERSION) "([^"]*)"\)', text)) or "unknown"
 
 
 def main() -> None:
-    import argparse
-
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=Path, required=True)
     arguments = parser.parse_args()

@@ -78,8 +78,8 @@ def scatter(results: Collection, scene: str) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Error:
-    """Of an ensemble against the reference, as shares of it. one_run: root mean square of its runs: what a single run is off
-    by its bias and its scatter together. The doubts are two standard errors, the reference's included."""
+    """Of an ensemble against the reference, as shares of it. one_run: root mean square of its runs: what a single run is
+    off by its bias and its scatter together. The doubts are two standard errors, the reference's included."""
 
     bias: float
     bias_doubt: float
@@ -182,8 +182,8 @@ def peers(ref: Reference) -> list[Peer]:
 
 
 def at_error(costs: Iterable[float], errors: Iterable[float], aim: float) -> float:
-    """Cost at which a curve of errors first falls to the aim and stays there, between two points by their logarithms; NaN if
-    it does not."""
+    """Cost at which a curve of errors first falls to the aim and stays there, between two points by their logarithms; NaN
+    if it does not."""
     curve = sorted(zip(costs, errors))
     for k in range(len(curve)):
         if all(e <= aim for _, e in curve[k:]):

@@ -1,5 +1,5 @@
-"""Runs small cases through the runner and the report: what comes out is what a program may be judged by, and the report holds
-it. Nothing here asserts a time."""
+"""Runs small cases through the runner and the report: what comes out is what a program may be judged by, and the report
+holds it. Nothing here asserts a time."""
 from __future__ import annotations
 
 import argparse
@@ -48,10 +48,18 @@ def check_collapse(coarse: results.Result, fine: results.Result, collection: res
     own = measures.error(fine, ref, "peak")
     assert abs(own.bias) < 1e-12 and own.one_run > 0, "an ensemble has no bias against itself, but scatter"
     off = measures.error(coarse, ref, "spread")
-    assert math.isclose(off.one_run**2, off.bias**2 + np.var(coarse.tables["seeds"]["spread"]) / ref.value["spread"] ** 2, rel_tol=1e-9)
+    assert math.isclose(
+        off.one_run**2,
+        off.bias**2 + np.var(coarse.tables["seeds"]["spread"]) / ref.value["spread"] ** 2,
+        rel_tol=1e-9,
+    )
     assert off.bias < 0, "a column of few particles runs out less far"
     # Four times the particles and twice the steps.
-    assert 7 < fine.summary["particles"] * fine.summary["steps"] / coarse.summary["particles"] / coarse.summary["steps"] < 9
+    assert (
+        7
+        < fine.summary["particles"] * fine.summary["steps"] / coarse.summary["particles"] / coarse.summary["steps"]
+        < 9
+    )
 
 
 def check_feature(idle: results.Result, used: results.Result) -> None:
@@ -75,7 +83,16 @@ def main() -> None:
     idle, used = runs.feature("coulomb", "idle"), runs.feature("coulomb")
     small, machine = runs.growth(runs.GROWTH[0]), runs.machine()
     for run in (coarse, fine, idle, used, small, machine):
-        runner = (sys.executable, HERE / "runner.py", "--build", arguments.build, "--results", found, "--only", run.name)
+        runner = (
+            sys.executable,
+            HERE / "runner.py",
+            "--build",
+            arguments.build,
+            "--results",
+            found,
+            "--only",
+            run.name,
+        )
         if not results.load(run, found):
             call(*runner)
         assert results.load(run, found), f"{run.name} has no result"

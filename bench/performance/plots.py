@@ -6,6 +6,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 import measures
 import runs
@@ -18,11 +19,23 @@ SETTING_STYLES = {
     "cfl0.2": ("v", "#0072B2"), "cfl0.4": ("<", "#0072B2"), "cfl1": (">", "#0072B2"),
     "sound0.5": ("1", "#0072B2"), "sound0.7": ("2", "#0072B2"), "sound2": ("3", "#0072B2"),
     "cheap4": ("d", "#56B4E9"), "cheap3": ("d", "#009E73"), "cheap2.5": ("d", "#E69F00"),
-    "paper": ("x", "#D55E00"), "local": ("+", "#882255"), "local_radius2.5": ("+", "#AA4499"), "local_radius3": ("+", "#CC6677"),
+    "paper": ("x", "#D55E00"), "local": ("+", "#882255"), "local_radius2.5": ("+", "#AA4499"),
+    "local_radius3": ("+", "#CC6677"),
     "implicit": ("*", "0.45"),
 }  # fmt: skip
 PEER_STYLES = {"Matter": ("P", "black"), "Basilisk": ("X", "0.4"), "LAMMPS": ("h", "0.6")}
 FLOOR = 1e-4  # below, an error is drawn here
+
+
+def _log_log(ax: Axes) -> None:
+    """Plain numbers at 1, 2 and 5 where an axis has few decades, at powers of ten else."""
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    for axis, (low, high) in ((ax.xaxis, ax.get_xlim()), (ax.yaxis, ax.get_ylim())):
+        few = high / low < 300
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if few else (1,)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def _percent(value: float) -> float:
@@ -50,10 +63,9 @@ def _work_precision(ax: Axes, points: list[Point], ref: Reference, quantity: str
         off = measures.error(p.result, ref, quantity).one_run if p.resolution != ref.resolution else np.nan
         places.append((p.cost, off))
     front = measures.pareto(places, places)
-    ax.plot([x for x, _ in front], [_percent(y) for _, y in front], color="black", lw=1, ls=":", label="no other is better")
+    ax.plot([x for x, _ in front], [_percent(y) for _, y in front], color="black", lw=1, ls=":", label="Pareto front")
     ax.axhline(100 * measures.AIM, color="0.8", lw=1, zorder=0)
-    ax.set_xscale("log")
-    ax.set_yscale("log")
+    _log_log(ax)
     ax.set_xlabel("CPU s per simulated s")
     ax.set_title(QUANTITIES[quantity], fontsize=14)
     return places
@@ -75,7 +87,7 @@ def collapse(path: Path, results: Collection) -> bool:
     ref, points = measures.reference(results, "a1.25"), measures.points(results, "a1.25")
     if not ref or len(points) < 2:
         return False
-    figure, axes = plt.subplots(1, 3, figsize=(19, 7), layout="constrained", sharey=True)
+    figure, axes = plt.subplots(1, 3, figsize=(19, 7), layout="constrained", sharex=True, sharey=True)
     for ax, quantity in zip(axes, QUANTITIES):
         _work_precision(ax, points, ref, quantity)
         _draw_peers(ax, ref, quantity)
@@ -112,17 +124,20 @@ def exact(path: Path, results: Collection) -> bool:
             ax.plot([x for x, _ in where], [y for _, y in where], "o-", color=HORIZON_COLORS[h], label=f"horizon {h:g}")
         if case.varied_at:
             for key, marker, tried in (
-                ("sound speed 5, 7, 20 u_max", "d", [results(runs.exact(case.name, case.varied_at, sound=s)) for s in runs.SOUNDS]),
+                (
+                    "sound speed 5, 7, 20 u_max",
+                    "d",
+                    [results(runs.exact(case.name, case.varied_at, sound=s)) for s in runs.SOUNDS],
+                ),
                 ("cfl 0.4, 1", "x", [results(runs.exact(case.name, case.varied_at, cfl=c)) for c in case.cfls]),
             ):
                 where = [(r.cpu, 100 * abs(r.summary[case.measure])) for r in tried if r]
                 places += where
                 ax.plot([x for x, _ in where], [y for _, y in where], marker, color="0.35", ms=8, mew=1.8, label=key)
         front = measures.pareto(places, places)
-        ax.plot([x for x, _ in front], [y for _, y in front], color="black", lw=1, ls=":", label="no other is better")
+        ax.plot([x for x, _ in front], [y for _, y in front], color="black", lw=1, ls=":", label="Pareto front")
         drawn = drawn or bool(places)
-        ax.set_xscale("log")
-        ax.set_yscale("log")
+        _log_log(ax)
         ax.set_title(case.label, fontsize=14)
         ax.set_ylabel(f"error (%), {case.unit}", fontsize=12)
     for ax in axes[1]:
@@ -135,27 +150,42 @@ def exact(path: Path, results: Collection) -> bool:
 
 
 def growth(path: Path, results: Collection) -> bool:
-    release = [r for r in (results(runs.growth(n)) for n in runs.GROWTH) if r]
+    at_rest = [r for r in (results(runs.growth(n)) for n in runs.GROWTH) if r]
     flow = [r for r in (results(runs.flow(n)) for n in runs.FLOW) if r]
-    if not release:
+    if not at_rest:
         return False
     figure, (left, right) = plt.subplots(1, 2, figsize=(14, 5.5), layout="constrained")
-    for line, color, label in ((release, "#0072B2", "just released"), (flow, "#D55E00", "in the middle of the flow")):
-        left.plot([r.summary["particles"] for r in line], [r.summary["cpu"] for r in line], "o-", color=color, label=label)
+    for line, color, label in (
+        (at_rest, "#0072B2", "at rest between walls"),
+        (flow, "#D55E00", "in the middle of the flow"),
+    ):
+        left.plot(
+            [r.summary["particles"] for r in line], [r.summary["cpu"] for r in line], "o-", color=color, label=label
+        )
     machine = results(runs.machine())
     for level, name in ((2, "L2"), (3, "L3")):
         if machine and f"cache_{level}" in machine.summary:
-            particles = machine.summary[f"cache_{level}"] / release[-1].summary["bytes"]
+            particles = machine.summary[f"cache_{level}"] / at_rest[-1].summary["bytes"]
             left.axvline(particles, color="0.75", lw=1, zorder=0)
-            left.annotate(f" {name} full", (particles, 0.02), xycoords=("data", "axes fraction"), fontsize=11, color="0.4")
+            left.annotate(
+                f" {name} full", (particles, 0.02), xycoords=("data", "axes fraction"), fontsize=11, color="0.4"
+            )
     left.set_xscale("log")
     left.set_ylim(bottom=0)
     left.set_xlabel("particles")
     left.set_ylabel("CPU ns per particle and step")
     left.legend()
-    size = [r.summary["particles"] for r in release]
-    right.plot(size, [r.summary["bytes"] * n for r, n in zip(release, size)], "o-", color="#0072B2", label="held by the library")
-    right.plot(size, [r.summary["peak_rss"] for r in release], "s--", color="#009E73", label="peak of the whole program")
+    size = [r.summary["particles"] for r in at_rest]
+    right.plot(
+        size,
+        [r.summary["bytes"] * n for r, n in zip(at_rest, size)],
+        "o-",
+        color="#0072B2",
+        label="held by the library",
+    )
+    right.plot(
+        size, [r.summary["peak_memory"] for r in at_rest], "s--", color="#009E73", label="peak of the whole program"
+    )
     right.set_xscale("log")
     right.set_yscale("log")
     right.set_xlabel("particles")

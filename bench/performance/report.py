@@ -134,8 +134,8 @@ A plate out of reach of all material leaves the plan (`gp_get_plan`), and its gh
 
 {figure("growth", drawn, GROWTH_CAPTION)}
 
-"Just released": the first steps of the collapse, in which lists are hardly made anew, the same work per particle at every size. "In flow": 300 steps at
-{runs.FLOW_FROM:g} s.
+"At rest": a column between smooth walls, the same work per particle at every size; its lists are not made anew. "In flow": the collapse, 300 steps
+at {runs.FLOW_FROM:g} s.
 
 {lean.growth(collection)}
 
@@ -165,7 +165,10 @@ results in `results/performance`. Every number is measured by a run or cited. {l
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument(
-        "--results", type=Path, default=ROOT / "results" / "performance", help="where the results are [results/performance]"
+        "--results",
+        type=Path,
+        default=ROOT / "results" / "performance",
+        help="where the results are [results/performance]",
     )
     parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where performance.md goes [docs]")
     arguments = parser.parse_args()

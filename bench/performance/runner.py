@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Runs what is missing of the studies of docs/performance.md: one at a time, so that none slows down another, cheapest first,
-each once per state of the sources."""
+"""Runs what is missing of the studies of docs/performance.md: one at a time, so that none slows down another,
+cheapest first, each once per state of the sources."""
 import sys
 from pathlib import Path
 

@@ -24,7 +24,9 @@ PROGRAMS = {
     ),
     "threads": Program("bench/performance/threads.py", ("bench/performance/threads.py", "bench/step.c"), script=True),
     "builds": Program(
-        "bench/performance/builds.py", ("bench/performance/builds.py", "bench/smallest.c", "CMakeLists.txt"), script=True
+        "bench/performance/builds.py",
+        ("bench/performance/builds.py", "bench/smallest.c", "CMakeLists.txt"),
+        script=True,
     ),
     "machine": Program("bench/performance/machine.py", ("bench/performance/machine.py",), script=True),
 }
@@ -56,7 +58,9 @@ class Scene:
     sides: int
     options: tuple[str, ...]
     resolutions: dict[int, int]  # spacings in the length: runs of the ensemble
-    references: dict[int, int]  # the same of the reference, which ends when it has come to rest; the finest that is there
+    references: dict[
+        int, int
+    ]  # the same of the reference, which ends when it has come to rest; the finest that is there
     variants_at: tuple[int, ...]  # resolutions at which other settings than the horizon are tried
     horizons: tuple[float, ...] = HORIZONS
 
@@ -70,15 +74,19 @@ class Scene:
         return self.aspect * self.reference_length
 
 
+OF_A_1_25 = {8: 16, 16: 16, 24: 12, 32: 12, 48: 6, 64: 4}
+OF_A_5 = {8: 12, 12: 12, 16: 12, 24: 6, 32: 4}
+OF_ONE_SIDE = {20: 12, 30: 12, 40: 8, 56: 6, 80: 4}
+WITH_WALL = ("--length", "0.2", "--aspect", "0.7", "--sides", "1", "--diameter", "0.0007")
+FEWER = (2.5, 3.0, 4.0)
 SCENES = {
     scene.key: scene
     for scene in (
-        Scene("a1.25", "both sides, a = 1.25", 0.08, 1.25, 2, (), {8: 16, 16: 16, 24: 12, 32: 12, 48: 6, 64: 4}, {128: 4, 256: 2}, (16, 32)),
-        Scene("a5", "both sides, a = 5", 0.08, 5.0, 2, ("--aspect", "5"), {8: 12, 12: 12, 16: 12, 24: 6, 32: 4}, {64: 3, 128: 1}, (16,), (2.5, 3.0, 4.0)),
-        Scene("one_side", "one side, a = 0.7", 0.20, 0.7, 1, ("--length", "0.2", "--aspect", "0.7", "--sides", "1", "--diameter", "0.0007"),
-              {20: 12, 30: 12, 40: 8, 56: 6, 80: 4}, {160: 3, 320: 1}, (40,), (2.5, 3.0, 4.0)),
+        Scene("a1.25", "both sides, a = 1.25", 0.08, 1.25, 2, (), OF_A_1_25, {128: 4, 256: 2}, (16, 32)),
+        Scene("a5", "both sides, a = 5", 0.08, 5.0, 2, ("--aspect", "5"), OF_A_5, {64: 3, 128: 1}, (16,), FEWER),
+        Scene("one_side", "one side, a = 0.7", 0.20, 0.7, 1, WITH_WALL, OF_ONE_SIDE, {160: 3, 320: 1}, (40,), FEWER),
     )
-}  # fmt: skip
+}
 LONG_REFERENCE = {"a1.25": 256, "a5": 128, "one_side": 320}
 EXTRA_COST = {"a1.25": (128, (3.0, 4.0))}  # a run to the end, for its CPU time
 
@@ -95,6 +103,7 @@ class Setting:
     long: bool = False
 
 
+FASTER = ("--cfl", "1", "--sound-factor")
 SETTINGS = {
     setting.key: setting
     for setting in (
@@ -104,9 +113,9 @@ SETTINGS = {
         Setting("sound0.5", "c0 = 5 u_max", ("--sound-factor", "0.5"), 0.5),
         Setting("sound0.7", "c0 = 7 u_max", ("--sound-factor", "0.7"), 0.7),
         Setting("sound2", "c0 = 20 u_max", ("--sound-factor", "2"), 2),
-        Setting("cheap3", "horizon 3, cfl 1, c0 = 7 u_max", ("--horizon", "3", "--cfl", "1", "--sound-factor", "0.7"), 0.35),
-        Setting("cheap2.5", "horizon 2.5, cfl 1, c0 = 5 u_max", ("--horizon", "2.5", "--cfl", "1", "--sound-factor", "0.5"), 0.25),
-        Setting("cheap4", "cfl 1, c0 = 5 u_max", ("--cfl", "1", "--sound-factor", "0.5"), 0.4),
+        Setting("cheap3", "horizon 3, cfl 1, c0 = 7 u_max", ("--horizon", "3", *FASTER, "0.7"), 0.35),
+        Setting("cheap2.5", "horizon 2.5, cfl 1, c0 = 5 u_max", ("--horizon", "2.5", *FASTER, "0.5"), 0.25),
+        Setting("cheap4", "cfl 1, c0 = 5 u_max", (*FASTER, "0.5"), 0.4),
         Setting("paper", "paper, non-local", (), 5, "paper"),
         Setting("local", "paper, local", (), 5, "local"),
         Setting("local_radius2.5", "paper, local, radius 2.5", ("--interaction-radius", "2.5"), 4, "local"),
@@ -129,8 +138,8 @@ def _ensemble(scene: Scene, resolution: int, seeds: int, scheme: str, options: t
               long: bool = False, rested: bool = False) -> Run:  # fmt: skip
     end = ("--interval", "0.005", "--rested", "0.05") if rested else ("--interval", f"{END:g}")
     arguments = (
-        "collapse", "--scheme", scheme, "--resolution", str(resolution), "--end", f"{END:g}", *end, "--jitter", f"{JITTER:g}",
-        "--seeds", str(seeds), *scene.options, *options,
+        "collapse", "--scheme", scheme, "--resolution", str(resolution), "--end", f"{END:g}", *end,
+        "--jitter", f"{JITTER:g}", "--seeds", str(seeds), *scene.options, *options,
     )  # fmt: skip
     name = _name(scene.key, scheme, f"r{resolution}", *(("rested",) if rested else ()), options=options)
     return Run(name, "collapse", arguments, seeds * work * _cost(scene, resolution), long)
@@ -155,7 +164,9 @@ def reference(scene: str, resolution: int) -> Run:
 def varied(scene: str, resolution: int, setting: str) -> Run:
     s, one = SCENES[scene], SETTINGS[setting]
     seeds = max(2, s.resolutions[resolution] // (1 if one.work < 3 else 3))
-    return _ensemble(s, resolution, seeds, one.scheme, one.options, one.work, one.scheme == "implicit" and resolution > 16)
+    return _ensemble(
+        s, resolution, seeds, one.scheme, one.options, one.work, one.scheme == "implicit" and resolution > 16
+    )
 
 
 def settings_of(scene: str) -> list[tuple[str, int]]:
@@ -212,7 +223,9 @@ SOUNDS = (5.0, 7.0, 20.0)
 CFLS = (0.4, 1.0)
 
 
-def exact(case: str, resolution: int, horizon: float = DEFAULT_HORIZON, sound: float | None = None, cfl: float | None = None) -> Run:
+def exact(
+    case: str, resolution: int, horizon: float = DEFAULT_HORIZON, sound: float | None = None, cfl: float | None = None
+) -> Run:
     c = CASES[case]
     # Given, so that a run does not depend on what the library's default is.
     options = _options(resolution=resolution, horizon=horizon, sound_speed=sound, cfl=cfl)
@@ -270,6 +283,11 @@ def instructions() -> Run:
     return Run("instructions", "instructions", ("--resolution", "32", *IDLE), 60)
 
 
+def features() -> list[Run]:
+    found = [feature("none"), *(feature(key) for key in FEATURES), *(feature(key, "idle") for key in IDLE)]
+    return [*found, feature("all", resolution=126), instructions()]
+
+
 def build(label: str) -> Run:
     options = BUILDS[label]
     return Run(_name("build", *(o.replace("=", "_") for o in options or ("default",))), "builds", options, 90)
@@ -278,18 +296,18 @@ def build(label: str) -> Run:
 # ------------------------------------------------------------------------------------------- memory and growth
 
 GROWTH = (13, 40, 126, 400, 1265, 2530)  # particles over the width; N = 0.625 of its square
-LARGE_STEPS = {1265: 20, 2530: 10}
+LARGE_STEPS = {1265: 20, 2530: 8}
 FLOW = (32, 64, 126, 252)  # in the middle of the flow
 FLOW_FROM = 0.15  # s
 THREADS = (13, 40, 126)
 
 
 def growth(resolution: int) -> Run:
-    """Some steps after the release, when nothing flows yet: the same work per particle at every size."""
+    """A column at rest between walls: the same work per particle at every size and every step."""
     particles = 0.625 * resolution**2
-    steps = LARGE_STEPS.get(resolution, int(min(2000, max(100, 4e6 / particles))))
-    options = _options(resolution=resolution, **{"from": 1e-4 * 40 / resolution}, steps=steps)
-    return Run(_name("growth", options=options), "step", options, 1 + 1.5 * particles * steps / TYPICAL_RATE, particles > 3e6)
+    steps = LARGE_STEPS.get(resolution, int(min(4000, max(100, 4e6 / particles))))
+    options = _options(resolution=resolution, walls=1, **{"from": 0}, steps=steps)
+    return Run(_name("growth", options=options), "step", options, 1 + 1.5 * particles * steps / TYPICAL_RATE)
 
 
 def flow(resolution: int) -> Run:
@@ -301,7 +319,9 @@ def flow(resolution: int) -> Run:
 def threads(resolution: int) -> Run:
     steps = int(min(4000, max(40, 4e6 / (0.625 * resolution**2))))
     options = _options(resolution=resolution, steps=steps)
-    return Run(_name("threads", options=options), "threads", options, 14 * 0.625 * resolution**2 * steps / TYPICAL_RATE)
+    return Run(
+        _name("threads", options=options), "threads", options, 14 * 0.625 * resolution**2 * steps / TYPICAL_RATE
+    )
 
 
 def machine() -> Run:
@@ -314,8 +334,7 @@ def studies() -> dict[str, list[Run]]:
         "machine": [machine()],
         **{scene: collapses_of(scene) for scene in SCENES},
         "exact": [run for case in CASES for run in exact_of(case)],
-        "features": [feature("none")] + [feature(key, state) for key, (_, idle) in FEATURES.items()
-                     for state in (("used", "idle") if idle else ("used",))] + [feature("all", resolution=126), instructions()],
+        "features": features(),
         "builds": [build(label) for label in BUILDS],
         "growth": [growth(r) for r in GROWTH] + [flow(r) for r in FLOW] + [threads(r) for r in THREADS],
     }  # fmt: skip

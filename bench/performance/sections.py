@@ -88,7 +88,11 @@ def recommended(results: Collection) -> str:
         return ""
     rows = []
     for name, aim in AIMS:
-        own = [p for p in points if p.resolution != ref.resolution and (not p.setting or runs.SETTINGS[p.setting].scheme == "default")]
+        own = [
+            p
+            for p in points
+            if p.resolution != ref.resolution and (not p.setting or runs.SETTINGS[p.setting].scheme == "default")
+        ]
         good = sorted((p for p in own if measures.worst(p.result, ref) <= aim), key=lambda p: p.cost)
         if good:
             p = good[0]
@@ -110,10 +114,22 @@ def horizons(results: Collection) -> str:
                 result = results(runs.collapse(key, r, h))
                 if not ref or not base or not result or h == runs.DEFAULT_HORIZON or r == ref.resolution:
                     continue
-                cells = [f"{percent(measures.error(result, ref, q).bias)} ({percent(measures.error(base, ref, q).bias)})" for q in measures.AIMED_AT]
+                cells = [
+                    f"{percent(measures.error(result, ref, q).bias)} ({percent(measures.error(base, ref, q).bias)})"
+                    for q in measures.AIMED_AT
+                ]
                 worst = [measures.worst(result, ref), measures.worst(base, ref)]
-                rows.append([s.label, f"{r}", f"{h:g}", fixed(measures.cost(result) / measures.cost(base), 2), *cells, f"{share(worst[0])} ({share(worst[1])})"])  # fmt: skip
-    header = ["scene", "L/dl", "horizon", "CPU time / that of horizon 4", "peak (horizon 4)", "run-out, 98 % (horizon 4)", "one run, the larger of both (horizon 4)"]
+                time = fixed(measures.cost(result) / measures.cost(base), 2)
+                rows.append([s.label, f"{r}", f"{h:g}", time, *cells, f"{share(worst[0])} ({share(worst[1])})"])
+    header = [
+        "scene",
+        "L/dl",
+        "horizon",
+        "CPU time / that of horizon 4",
+        "peak (horizon 4)",
+        "run-out, 98 % (horizon 4)",
+        "one run, the larger of both (horizon 4)",
+    ]
     return table(header, rows) if rows else ""
 
 
@@ -126,17 +142,29 @@ def peers(results: Collection) -> str:
         for r in (16, 32, 64, 128):
             result = results(runs.collapse("a1.25", r, h))
             if result:
-                off = [NONE if r == ref.resolution else with_doubt(measures.error(result, ref, q)) for q in ("peak", "tip")]
-                rows.append([f"**ours, horizon {h:g}**", "peridynamics, return map", f"{r}", seconds(measures.cost(result)), *off])
+                off = [
+                    NONE if r == ref.resolution else with_doubt(measures.error(result, ref, q)) for q in ("peak", "tip")
+                ]
+                rows.append(
+                    [
+                        f"**ours, horizon {h:g}**",
+                        "peridynamics, return map",
+                        f"{r}",
+                        seconds(measures.cost(result)),
+                        *off,
+                    ]
+                )
     for p in measures.peers(ref):
         busy = " (busy machine)" if p.inflated else ""
-        rows.append([p.label, p.method, f"{p.resolution or NONE}", f"{cpu(p.cost)}{busy}", percent(p.peak), percent(p.tip)])
+        rows.append(
+            [p.label, p.method, f"{p.resolution or NONE}", f"{cpu(p.cost)}{busy}", percent(p.peak), percent(p.tip)]
+        )
     return table(["code", "method", "L/dl", "CPU s per simulated s", "peak", "run-out (tips, front)"], rows)
 
 
 def throughput(results: Collection) -> str:
     rows = []
-    for label, runs_of, sizes in (("in flow", runs.flow, runs.FLOW), ("just released", runs.growth, runs.GROWTH)):
+    for label, runs_of, sizes in (("in flow", runs.flow, runs.FLOW), ("at rest", runs.growth, runs.GROWTH)):
         for n in sizes:
             result = results(runs_of(n))
             if result and 100 < result.summary["particles"] < 2e5:
@@ -148,7 +176,16 @@ def throughput(results: Collection) -> str:
     for code, precision, neighbours, rates, per_neighbour in THROUGHPUT:
         cells = [" / ".join(f"{rate:g}" for rate in rates), NONE if per_neighbour is None else f"{per_neighbour:g}"]
         rows.append([code, precision, neighbours, *cells])
-    return table(["code", "precision", "neighbours", "1e6 particle-steps per CPU s (peers: at 1e3 / 1e4 / 1e5)", "ns per neighbour"], rows)
+    return table(
+        [
+            "code",
+            "precision",
+            "neighbours",
+            "1e6 particle-steps per CPU s (peers: at 1e3 / 1e4 / 1e5)",
+            "ns per neighbour",
+        ],
+        rows,
+    )
 
 
 def exact(results: Collection) -> str:
@@ -172,7 +209,12 @@ def exact_varied(results: Collection) -> str:
         tried += [results(runs.exact(case.name, case.varied_at, sound=s)) for s in runs.SOUNDS]
         if any(tried):
             rows.append([case.label, *(_exact_cell(r, case) for r in tried)])
-    header = ["case, resolution 20", "defaults", *(f"cfl {c:g}" for c in runs.CFLS), *(f"c0 = {s:g} u" for s in runs.SOUNDS)]
+    header = [
+        "case, resolution 20",
+        "defaults",
+        *(f"cfl {c:g}" for c in runs.CFLS),
+        *(f"c0 = {s:g} u" for s in runs.SOUNDS),
+    ]
     return table(header, rows) if rows else ""
 
 
@@ -194,20 +236,30 @@ def _aim(results: Collection) -> list[str]:
     ref, points = measures.reference(results, "a1.25"), measures.points(results, "a1.25")
     if not ref:
         return []
-    own = [p for p in points if p.resolution != ref.resolution and (not p.setting or runs.SETTINGS[p.setting].scheme == "default")]
+    own = [
+        p
+        for p in points
+        if p.resolution != ref.resolution and (not p.setting or runs.SETTINGS[p.setting].scheme == "default")
+    ]
 
     def worst_bias(p: Point) -> float:
         return max(abs(measures.error(p.result, ref, q).bias) for q in measures.AIMED_AT)
 
     lines = []
-    for text, measure in (("on the mean of several runs", worst_bias), ("in a single run", lambda p: measures.worst(p.result, ref))):
+    for text, measure in (
+        ("on the mean of several runs", worst_bias),
+        ("in a single run", lambda p: measures.worst(p.result, ref)),
+    ):
         good = sorted((p for p in own if measure(p) <= measures.AIM), key=lambda p: p.cost)
         if good:
             p = good[0]
-            offs = ", ".join(f"{label} {with_doubt(measures.error(p.result, ref, q))}" for q, label in QUANTITIES.items())
+            offs = ", ".join(
+                f"{label} {with_doubt(measures.error(p.result, ref, q))}" for q, label in QUANTITIES.items()
+            )
             lines.append(
-                f"a = 1.25 to 1 s with peak and run-out of 98 % of the mass within {100 * measures.AIM:g} % of our converged solution (L/dl = "
-                f"{ref.resolution}) {text}: {seconds(p.cost)} CPU s with {p.label}, L/dl = {p.resolution} ({offs}; one run {share(measure(p)) if text.startswith('in') else share(measures.worst(p.result, ref))})."
+                f"a = 1.25 to 1 s with peak and run-out of 98 % of the mass within {100 * measures.AIM:g} % of our converged "
+                f"solution (L/dl = {ref.resolution}) {text}: {seconds(p.cost)} CPU s with {p.label}, L/dl = {p.resolution} "
+                f"({offs}; one run {share(measures.worst(p.result, ref))})."
             )
         elif own:
             lines.append(f"No setting that was run has peak and run-out within {100 * measures.AIM:g} % {text}.")
@@ -225,8 +277,14 @@ def _matter(results: Collection) -> list[str]:
         own = [(h, results(runs.collapse("a1.25", p.resolution or 0, h))) for h in (4.0, 3.0)]
         costs = " / ".join(f"{seconds(measures.cost(r))} (horizon {h:g})" for h, r in own if r)
         if costs:
-            cells.append(f"L/dl = {p.resolution}: {costs}, Matter {cpu(p.cost)}{' (busy machine)' if p.inflated else ''}")
-    return [f"CPU s per simulated s against the explicit MPM code at the same spacing: {'; '.join(cells)}."] if cells else []
+            cells.append(
+                f"L/dl = {p.resolution}: {costs}, Matter {cpu(p.cost)}{' (busy machine)' if p.inflated else ''}"
+            )
+    return (
+        [f"CPU s per simulated s against the explicit MPM code at the same spacing: {'; '.join(cells)}."]
+        if cells
+        else []
+    )
 
 
 def _horizon(results: Collection) -> list[str]:
@@ -244,11 +302,15 @@ def _horizon(results: Collection) -> list[str]:
     better = sum(measures.worst(three, ref) < measures.worst(four, ref) for _, _, three, four in found)
     curves = []
     for h in (3.0, 4.0):
-        line = [(measures.cost(r), measures.worst(r, ref)) for r in (results(runs.collapse("a1.25", n, h)) for n in runs.SCENES["a1.25"].resolutions) if r]
+        line = [
+            (measures.cost(r), measures.worst(r, ref))
+            for r in (results(runs.collapse("a1.25", n, h)) for n in runs.SCENES["a1.25"].resolutions)
+            if r
+        ]
         curves.append(measures.at_error([c for c, _ in line], [e for _, e in line], 0.05))
     text = (
-        f"Horizon 3 takes {min(ratios):.2f} to {max(ratios):.2f} of the CPU time of horizon 4 at the same spacing, and one run errs less in "
-        f"{better} of {len(found)} spacings"
+        f"Horizon 3 takes {min(ratios):.2f} to {max(ratios):.2f} of the CPU time of horizon 4 at the same spacing, and one run "
+        f"errs less in {better} of {len(found)} spacings"
     )
     if not any(math.isnan(c) for c in curves):
         text += f"; to err by 5 % takes {seconds(curves[0])} CPU s with horizon 3 and {seconds(curves[1])} with 4"
@@ -262,6 +324,6 @@ def _neighbours(results: Collection) -> list[str]:
     per = result.summary["cpu"] / OUR_NEIGHBOURS
     low = min(p for _, _, _, _, p in THROUGHPUT[:3] if p)
     return [
-        f"{per:.1f} ns per neighbour and step ({result.summary['particles']:.0f} particles in flow, horizon 4); SPH and peridynamic codes "
-        f"take {low:g} to 74: {low / per:.1f} to {74 / per:.1f} times as much."
+        f"{per:.1f} ns per neighbour and step ({result.summary['particles']:.0f} particles in flow, horizon 4); SPH and "
+        f"peridynamic codes take {low:g} to 74: {low / per:.1f} to {74 / per:.1f} times as much."
     ]

@@ -13,7 +13,17 @@ from statistics import median
 
 
 def measure(program: Path, resolution: int, threads: int, steps: int) -> dict[str, float]:
-    command = [str(program), "--resolution", str(resolution), "--from", "0", "--steps", str(steps), "--threads", str(threads)]
+    command = [
+        str(program),
+        "--resolution",
+        str(resolution),
+        "--from",
+        "0",
+        "--steps",
+        str(steps),
+        "--threads",
+        str(threads),
+    ]
     run = subprocess.run(
         command, capture_output=True, text=True, check=True, env={**os.environ, "OMP_WAIT_POLICY": "passive"}
     )
