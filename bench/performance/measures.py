@@ -15,7 +15,13 @@ from results import Collection, Result
 sys.path.append(str(Path(__file__).resolve().parents[1] / "validation"))
 from references import INDEPENDENT_CODES  # noqa: E402
 
-QUANTITIES = {"peak": "peak", "spread": "run-out of 98 % of the mass", "tip": "run-out of the tips"}
+QUANTITIES = {
+    "peak": "peak",
+    "spread": "run-out of 98 % of the mass",
+    "front": "run-out of the front (0.05 H thick)",
+    "tip": "run-out of the tips",
+}
+SHORT = {"peak": "peak", "spread": "run-out, 98 %", "front": "run-out, front", "tip": "run-out, tips"}
 AIMED_AT = ("peak", "spread")  # what "the error" of a deposit is about
 AIM = 0.02
 SURE = 2.0  # standard errors
@@ -74,6 +80,10 @@ def scatter(results: Collection, scene: str) -> dict[str, float]:
         if result and len(_good(result, "peak")) > 2:
             return {q: float(np.std(_good(result, q), ddof=1)) for q in QUANTITIES}
     return {}
+
+
+def mean(result: Result, quantity: str) -> float:
+    return float(np.mean(_good(result, quantity)))
 
 
 @dataclass(frozen=True)

@@ -72,29 +72,33 @@ def _work_precision(ax: Axes, points: list[Point], ref: Reference, quantity: str
 
 
 def _draw_peers(ax: Axes, ref: Reference, quantity: str) -> None:
-    """They have a peak and a front: nothing to compare the run-out of 98 % of the mass with."""
-    if quantity == "spread":
+    """They have a peak and an outermost point."""
+    if quantity not in ("peak", "tip"):
         return
     for peer in measures.peers(ref):
         marker, color = PEER_STYLES[peer.label.split()[0]]
         off = peer.peak if quantity == "peak" else peer.tip
         ax.plot([peer.cost], [_percent(off)], marker, color=color, ms=9, mfc="none" if peer.inflated else color)
         text = f"{peer.resolution}" if peer.resolution else "discs"
-        ax.annotate(text, (peer.cost, _percent(off)), textcoords="offset points", xytext=(6, 5), fontsize=9)
+        place = (6, 5) if peer.resolution else (-10, -14)
+        ax.annotate(text, (peer.cost, _percent(off)), textcoords="offset points", xytext=place, fontsize=9)
 
 
 def collapse(path: Path, results: Collection) -> bool:
     ref, points = measures.reference(results, "a1.25"), measures.points(results, "a1.25")
     if not ref or len(points) < 2:
         return False
-    figure, axes = plt.subplots(1, 3, figsize=(19, 7), layout="constrained", sharex=True, sharey=True)
-    for ax, quantity in zip(axes, QUANTITIES):
+    figure, axes = plt.subplots(2, 2, figsize=(15, 12), layout="constrained", sharex=True, sharey=True)
+    for ax, quantity in zip(axes.flat, QUANTITIES):
         _work_precision(ax, points, ref, quantity)
         _draw_peers(ax, ref, quantity)
     for name, (marker, color) in PEER_STYLES.items():
-        axes[0].plot([], [], marker, color=color, label=f"{name} (hollow: busy machine)")
-    axes[0].set_ylabel("error of one run (%)")
-    legend_above(figure, axes[0], 5)
+        axes[0, 0].plot([], [], marker, color=color, linestyle="none", label=f"{name} (hollow: busy machine)")
+    for ax in axes[:, 0]:
+        ax.set_ylabel("error of one run (%)")
+    for ax in axes[0]:
+        ax.set_xlabel("")
+    legend_above(figure, axes[0, 0], 4)
     return finish(figure, path)
 
 

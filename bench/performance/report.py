@@ -23,11 +23,15 @@ from run import ROOT, cheapest_first
 figure = functools.partial(document.figure, "performance")
 
 COLLAPSE_CAPTION = (
-    "a = 1.25: error of one run at 1 s (bias and scatter together) against CPU time; along a line L/dl = 8, 16, 24, 32, 48, 64. Bars: two "
-    "standard errors. Black symbols: other codes with their L/dl, against our converged solution"
+    "a = 1.25: error of one run at 1 s (bias and scatter together) against CPU time; along a line L/dl = 8, 16, 24, 32, 48, "
+    "64. Bars: two standard errors. Black and grey symbols: other codes with their L/dl, against our converged solution. A "
+    "front 0.05 H thick is a spacing thick at L/dl = 32"
 )
 OTHERS_CAPTION = "The same for a = 5 (L/dl = 8 to 32) and for one side (L/dl = 20 to 80)"
-EXACT_CAPTION = "Exact solutions: error against CPU time; along a line the resolution doubles. Symbols without a line: resolution 20, horizon 4"
+EXACT_CAPTION = (
+    "Exact solutions: error against CPU time; along a line the resolution doubles. Symbols without a line: resolution 20, "
+    "horizon 4"
+)
 GROWTH_CAPTION = "CPU time of a step and memory against the number of particles"
 
 
@@ -35,19 +39,20 @@ def compose(collection: Collection, drawn: set[str]) -> str:
     body = f"""## Error against run time: collapses
 
 Columns of glass beads on a rough floor, released at once: both sides, a = 1.25 (0.08 m wide, 0.05 m high), a = 5 (0.08 m,
-0.20 m), and one side beside a smooth wall (0.20 m, 0.14 m, grains of 0.7 mm). Peak and run-out (x - L0)/L0 at 1 s. Run-out is that of the
-points between which *98 % of the mass* lie, and that of the *tips*, the ends of the connected deposit, which single
-particles set. "The error" is that of the peak and the run-out of 98 % of the mass, whichever is larger.
+0.20 m), and one side beside a smooth wall (0.20 m, 0.14 m, grains of 0.7 mm). Peak and run-out (x - L0)/L0 at 1 s. Run-out
+is that of the points between which *98 % of the mass* lie, that of the *front*, where the deposit is 0.05 H thick, and that
+of the *tips*, the ends of the connected deposit, which single particles set. "The error" is that of the peak and the
+run-out of 98 % of the mass, whichever is larger.
 
-The flow is chaotic: every setting is an ensemble of runs whose particles start up to {runs.JITTER:g} dl beside each other's. *Bias*
-is the error of their mean, ± two standard errors (those of the converged solution included). *One run* is the root mean square
-error of its runs: bias and scatter together, what somebody who runs the scene once has to reckon with. CPU s are those of
-one run to 1 s, per simulated second, at rest or not.
+The flow is chaotic: every setting is an ensemble of runs whose particles start up to {runs.JITTER:g} dl beside each
+other's. *Bias* is the error of their mean, ± two standard errors (those of the converged solution included). *One run* is
+the root mean square error of its runs: bias and scatter together, what somebody who runs the scene once has to reckon with.
+CPU s are those of one run to 1 s, per simulated second, at rest or not.
 
 ### The converged solution
 
-The default scheme at the finest spacing that was run. In the last column of each quantity the bias of the next coarser ensemble
-against it: what is left to converge is of that order, and errors below it are not known.
+The default scheme at the finest spacing that was run. In the last column of each quantity the bias of the next coarser
+ensemble against it: what is left to converge is of that order, and errors below it are not known.
 
 {sections.convergence(collection)}
 
@@ -61,9 +66,10 @@ against it: what is left to converge is of that order, and errors below it are n
 
 ### Other codes
 
-Runs of the same column with the same μ(I) law, instant release, with public codes ([references.py](../bench/validation/references.py)): CPU s on
-a machine of two x86-64 cores, one thread, peak and front at 3 s. Their errors are against our converged solution, so that they say how far
-the codes are apart, not who is right; their front is compared with our tips.
+Runs of the same column with the same μ(I) law, instant release, with public codes
+([references.py](../bench/validation/references.py)): CPU s on a machine of two x86-64 cores, one thread, peak and front at
+3 s. Their errors are against our converged solution, so that they say how far the codes are apart, not who is right; their
+front is compared with our tips.
 
 {sections.peers(collection)}
 
@@ -91,15 +97,15 @@ At the same spacing; in brackets horizon 4. Bias, but in the last column one run
 
 ### Recommended settings
 
-The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim. Options not named are the
-library's.
+The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim. Options not named are
+the library's.
 
 {sections.recommended(collection)}
 
 ## Error against run time: exact solutions
 
-Error and, in brackets, CPU s. Scenes and exact solutions as in [validation.md](validation.md#exact-solutions). Free fall and the power
-identity hold to 1e-12 at any setting and are tests.
+Error and, in brackets, CPU s. Scenes and exact solutions as in [validation.md](validation.md#exact-solutions). Free fall
+and the power identity hold to 1e-12 at any setting and are tests.
 
 {sections.exact(collection)}
 
@@ -109,10 +115,10 @@ identity hold to 1e-12 at any setting and are tests.
 
 ## What a scene does not need
 
-The smallest scene: a block of 640 particles collapses on a floor, without penalty, diffusion, bulk viscosity and collisions. One
-feature at a time is added; steps of both scenes run in turn, and the ratio of their CPU times is the median of 41. *Idle*: it is there, with
-nothing to do. Instructions are callgrind's, of the steps alone, and do not depend on the load of the machine. What is used changes
-the flow, too: a block between walls makes its lists less often.
+The smallest scene: a block of 640 particles collapses on a floor, without penalty, diffusion, bulk viscosity and
+collisions. One feature at a time is added; steps of both scenes run in turn, and the ratio of their CPU times is the median
+of 41. *Idle*: it is there, with nothing to do. Instructions are callgrind's, of the steps alone, and do not depend on the
+load of the machine. What is used changes the flow, too: a block between walls makes its lists less often.
 
 {lean.unused(collection)}
 
@@ -134,8 +140,8 @@ A plate out of reach of all material leaves the plan (`gp_get_plan`), and its gh
 
 {figure("growth", drawn, GROWTH_CAPTION)}
 
-"At rest": a column between smooth walls, the same work per particle at every size; its lists are not made anew. "In flow": the collapse, 300 steps
-at {runs.FLOW_FROM:g} s.
+"At rest": a column between smooth walls, the same work per particle at every size; its lists are not made anew. "In flow":
+the collapse, 300 steps at {runs.FLOW_FROM:g} s.
 
 {lean.growth(collection)}
 
