@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from statistics import median
 from typing import Callable
 
 import measures
@@ -11,6 +12,7 @@ from measures import QUANTITIES, SHORT, Error, Point, Reference
 from peers import OUR_NEIGHBOURS, THROUGHPUT
 from results import Collection, Result
 
+GROWS = 1.3  # the error at the finest resolution over the smallest one: beyond, it does not converge
 AIMS = (("draft", 0.10), ("standard", 0.05), ("fine", 0.02))  # of one run, peak and run-out
 
 
@@ -230,7 +232,7 @@ Lines = Callable[[Collection], list[str]]
 
 
 def in_short(results: Collection) -> list[str]:
-    return [line for part in (_aim, _tips, _matter, _horizon, _neighbours) for line in part(results)]
+    return [line for part in (_aim, _tips, _matter, _horizon, _exact_horizons, _neighbours) for line in part(results)]
 
 
 def _aim(results: Collection) -> list[str]:
@@ -332,6 +334,30 @@ def _horizon(results: Collection) -> list[str]:
     if not any(math.isnan(c) for c in curves):
         text += f"; to err by 5 % takes {seconds(curves[0])} CPU s with horizon 3 and {seconds(curves[1])} with 4"
     return [text + "."]
+
+
+def _exact_horizons(results: Collection) -> list[str]:
+    """Horizon 3 against 4 in the exact solutions, and horizons with which an error grows on refinement."""
+    errors, times, growing = [], [], {}
+    for case in runs.CASES.values():
+        for h in runs.HORIZONS:
+            found = [results(runs.exact(case.name, n, h)) for n in case.resolutions]
+            off = [abs(r.summary[case.measure]) for r in found if r]
+            if len(off) == len(found) and off[-1] > GROWS * min(off):
+                growing.setdefault(h, []).append(case.label)
+        for n in case.resolutions:
+            three, four = results(runs.exact(case.name, n, 3.0)), results(runs.exact(case.name, n, 4.0))
+            if three and four and four.cpu > 0.05:
+                errors.append(abs(three.summary[case.measure] / four.summary[case.measure]))
+                times.append(three.cpu / four.cpu)
+    if not errors:
+        return []
+    text = (
+        f"Exact solutions: with horizon 3 the error is {median(errors):.2f} of that with horizon 4 at the same resolution (median of "
+        f"{len(errors)}; {min(errors):.2f} to {max(errors):.2f}), the CPU time {median(times):.2f}"
+    )
+    worse = "; ".join(f"{h:g} ({', '.join(labels)})" for h, labels in sorted(growing.items()))
+    return [text + (f". Horizons with which an error grows on refinement: {worse}." if worse else ".")]
 
 
 def _neighbours(results: Collection) -> list[str]:
