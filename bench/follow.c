@@ -167,6 +167,7 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
     o.tip = run_out(t, o.state.x_left, o.state.x_right);
     o.front = front_of(sim, t, &o.state, 0.05 * trial_height(t));
     o.spread = spread_of(sim, t, o.state.n_particles, 0.01);
+    o.bulk = spread_of(sim, t, o.state.n_particles, 0.05);
     o.memory = memory_of(sim);
     o.drift = d.largest / dl;
     o.seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;

@@ -63,6 +63,7 @@ static void print_outcome(const outcome *o, double seconds, double particle_step
     printf("tip                 %.8g L0\n", o->tip);
     printf("front               %.8g L0\n", o->front);
     printf("spread              %.8g L0\n", o->spread);
+    printf("bulk                %.8g L0\n", o->bulk);
     printf("rest                %.6g s\n", o->rest);
     printf("gain                %.6g E0\n", o->gain);
     printf("error               %.6g E0\n", o->error);
@@ -93,7 +94,7 @@ static void run(trial *t, choices *c) {
     int k;
     memset(&first, 0, sizeof first);
     if (seeds)
-        fprintf(seeds, "seed,diverged,peak,tip,front,spread,rest,error,gain,kinetic,pressure,steps\n");
+        fprintf(seeds, "seed,diverged,peak,tip,front,spread,bulk,rest,error,gain,kinetic,pressure,steps\n");
     for (k = 0; k < (int)c->seeds; ++k, ++t->seed) {
         gp_sim *sim = trial_create(t);
         c->follow.table = k == 0 ? open_table(c, "series") : NULL;
@@ -105,8 +106,8 @@ static void run(trial *t, choices *c) {
         if (k == 0)
             first = o;
         if (seeds)
-            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
-                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.rest, o.error, o.gain, o.kinetic,
+            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
+                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.bulk, o.rest, o.error, o.gain, o.kinetic,
                     o.pressure, (long long)o.state.step);
     }
     close_table(seeds);

@@ -9,7 +9,7 @@ import numpy as np
 import runs
 from markdown import NONE, fixed, significant, table
 from results import Collection, Result
-from sections import percent, seconds
+from sections import percent, seconds, share
 
 MEMORY = 20 * 2**30  # bytes, of the largest scene
 NOISE = 0.01  # what a feature that is not used may cost
@@ -131,15 +131,15 @@ def growth(results: Collection) -> str:
             r = results(runs_of(n))
             if r:
                 s = r.summary
-                lists = s.get("stage_update_neighbors", 0.0)
-                times = [fixed(s["cpu"], 0), fixed(lists, 0), seconds(s["cpu"] * s["particles"] * 1e-9)]
+                lists = share(s.get("stage_update_neighbors", 0.0) / s["wall"], 0)
+                times = [fixed(s["cpu"], 0), lists, seconds(s["cpu"] * s["particles"] * 1e-9)]
                 peak = [f"{s['peak_memory'] / 2**20:.0f} MiB", fixed(s["peak_memory"] / s["particles"], 0)]
                 rows.append([label, f"{s['particles']:.0f}", *times, fixed(s["bytes"], 0), *peak])
     header = [
         "",
         "particles",
         "CPU ns per particle and step",
-        "lists (ns)",
+        "of it lists",
         "CPU s per step",
         "bytes per particle, library",
         "peak of the program",
@@ -158,13 +158,20 @@ def linear(results: Collection) -> str:
     power = np.polyfit(np.log(size), np.log(step), 1)[0]
     largest = found[-1].summary
     per_particle = largest["peak_memory"] / largest["particles"]
-    return (
+    text = (
         f"From {size[0]:.0f} to {size[-1]:.0f} particles the CPU time of a step goes with the power {power:.2f} of their "
         f"number. At the largest size the program held {largest['peak_memory'] / 2**30:.2f} GiB at its peak, {per_particle:.0f} "
         f"bytes per particle, of which the library's plan accounts for {largest['bytes']:.0f}. At that rate 20 GiB hold "
         f"{MEMORY / per_particle / 1e6:.0f} million particles (extrapolated; the largest that was run has "
-        f"{largest['particles'] / 1e6:.2f} million)."
+        f"{largest['particles'] / 1e6:.2f} million)"
     )
+    flows = [r for r in (results(runs.flow(n)) for n in runs.FLOW) if r]
+    if flows:
+        most = max(r.summary["bytes"] for r in flows) - largest["bytes"] + per_particle
+        text += (
+            f"; in flow, where lists are longer, up to {most:.0f} bytes per particle, {MEMORY / most / 1e6:.0f} million"
+        )
+    return text + "."
 
 
 def memory(results: Collection) -> str:
