@@ -17,12 +17,19 @@ from references import INDEPENDENT_CODES  # noqa: E402
 
 QUANTITIES = {
     "peak": "peak",
+    "bulk": "run-out of 90 % of the mass",
     "spread": "run-out of 98 % of the mass",
     "front": "run-out of the front (0.05 H thick)",
     "tip": "run-out of the tips",
 }
-SHORT = {"peak": "peak", "spread": "run-out, 98 %", "front": "run-out, front", "tip": "run-out, tips"}
-AIMED_AT = ("peak", "spread")  # what "the error" of a deposit is about
+SHORT = {
+    "peak": "peak",
+    "bulk": "run-out, 90 %",
+    "spread": "run-out, 98 %",
+    "front": "run-out, front",
+    "tip": "run-out, tips",
+}
+AIMED_AT = ("peak", "bulk")  # what "the error" of a deposit is about
 AIM = 0.02
 SURE = 2.0  # standard errors
 DIVERGENT = 0.5  # share of the runs: beyond, an ensemble has no error
@@ -40,7 +47,10 @@ class Reference:
 
 
 def _good(result: Result, column: str) -> np.ndarray:
+    """Of the runs that did not diverge. None where the result is older than the measure."""
     seeds = result.tables["seeds"]
+    if column not in seeds:
+        return np.array([])
     return seeds[column][(seeds["diverged"] == 0) & ~np.isnan(seeds[column])]
 
 
@@ -60,7 +70,7 @@ def reference(results: Collection, scene: str) -> Reference | None:
             return Reference(
                 resolution,
                 len(values["peak"]),
-                {q: float(np.mean(v)) for q, v in values.items()},
+                {q: mean(result, q) for q in QUANTITIES},
                 {q: _standard_error(v, one.get(q, math.nan)) for q, v in values.items()},
                 result,
             )
@@ -70,7 +80,7 @@ def reference(results: Collection, scene: str) -> Reference | None:
 def _standard_error(values: np.ndarray, one: float) -> float:
     """one: the scatter of a run, where a single one cannot tell it."""
     scattered = float(np.std(values, ddof=1)) if len(values) > 1 else one
-    return scattered / math.sqrt(len(values))
+    return scattered / math.sqrt(max(1, len(values)))
 
 
 def scatter(results: Collection, scene: str) -> dict[str, float]:
@@ -78,12 +88,13 @@ def scatter(results: Collection, scene: str) -> dict[str, float]:
     for _, run in _finest_first(scene):
         result = results(run)
         if result and len(_good(result, "peak")) > 2:
-            return {q: float(np.std(_good(result, q), ddof=1)) for q in QUANTITIES}
+            return {q: float(np.std(_good(result, q), ddof=1)) for q in QUANTITIES if len(_good(result, q)) > 2}
     return {}
 
 
 def mean(result: Result, quantity: str) -> float:
-    return float(np.mean(_good(result, quantity)))
+    values = _good(result, quantity)
+    return float(np.mean(values)) if len(values) else math.nan
 
 
 @dataclass(frozen=True)
@@ -99,7 +110,7 @@ class Error:
 
 def error(result: Result, ref: Reference, quantity: str) -> Error:
     values, exact = _good(result, quantity), ref.value[quantity]
-    if len(values) < DIVERGENT * len(result.tables["seeds"][quantity]) or len(values) == 0:
+    if len(values) < DIVERGENT * len(result.tables["seeds"]["seed"]) or len(values) == 0:
         return Error(math.nan, math.nan, math.nan, math.nan)
     off = values / exact - 1
     of_reference = ref.error[quantity] / exact
@@ -151,7 +162,13 @@ def points(results: Collection, scene: str) -> list[Point]:
 
 def worst(result: Result, ref: Reference) -> float:
     """Error of one run, of the peak and the run-out whichever is larger."""
-    return max(error(result, ref, q).one_run for q in AIMED_AT)
+    return largest(error(result, ref, q).one_run for q in AIMED_AT)
+
+
+def largest(values: Iterable[float]) -> float:
+    """NaN if one of them is."""
+    found = list(values)
+    return math.nan if any(map(math.isnan, found)) else max(found)
 
 
 Item = TypeVar("Item")

@@ -47,10 +47,10 @@ def check_collapse(coarse: results.Result, fine: results.Result, collection: res
     assert ref and ref.resolution == 16 and ref.seeds == runs.SCENES["a1.25"].resolutions[16]
     own = measures.error(fine, ref, "peak")
     assert abs(own.bias) < 1e-12 and own.one_run > 0, "an ensemble has no bias against itself, but scatter"
-    off = measures.error(coarse, ref, "spread")
+    off = measures.error(coarse, ref, "bulk")
     assert math.isclose(
         off.one_run**2,
-        off.bias**2 + np.var(coarse.tables["seeds"]["spread"]) / ref.value["spread"] ** 2,
+        off.bias**2 + np.var(coarse.tables["seeds"]["bulk"]) / ref.value["bulk"] ** 2,
         rel_tol=1e-9,
     )
     assert off.bias < 0, "a column of few particles runs out less far"

@@ -47,9 +47,10 @@ def _work_precision(ax: Axes, points: list[Point], ref: Reference, quantity: str
     places = []
     for horizon in sorted({p.horizon for p in points}):
         line = [p for p in points if p.horizon == horizon and not p.setting and p.resolution != ref.resolution]
+        line = [p for p in line if not np.isnan(measures.error(p.result, ref, quantity).one_run)]
         errors = [measures.error(p.result, ref, quantity) for p in line]
         ax.errorbar(
-            [p.cost for p in line], [_percent(e.one_run) for e in errors], [100 * e.one_run_doubt for e in errors],
+            [p.cost for p in line], [_percent(e.one_run) for e in errors], np.nan_to_num([100 * e.one_run_doubt for e in errors]),
             color=HORIZON_COLORS[horizon], marker="o", ms=5, lw=1.6, capsize=2, label=f"horizon {horizon:g}",
         )  # fmt: skip
     for key, (marker, color) in SETTING_STYLES.items():
@@ -89,7 +90,7 @@ def collapse(path: Path, results: Collection) -> bool:
     if not ref or len(points) < 2:
         return False
     figure, axes = plt.subplots(2, 2, figsize=(15, 12), layout="constrained", sharex=True, sharey=True)
-    for ax, quantity in zip(axes.flat, QUANTITIES):
+    for ax, quantity in zip(axes.flat, ("peak", "bulk", "front", "tip")):
         _work_precision(ax, points, ref, quantity)
         _draw_peers(ax, ref, quantity)
     for name, (marker, color) in PEER_STYLES.items():
