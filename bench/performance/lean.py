@@ -52,7 +52,7 @@ def features(results: Collection) -> str:
         if idle:
             row += [
                 f"{(idle.summary['bytes'] - idle.summary['bytes_minimal']) * idle.summary['particles']:.0f}",
-                f"{100 * counted.summary[key]:+.2f} %" if counted and key in counted.summary else NONE,
+                percent(counted.summary[key], 2) if counted and key in counted.summary else NONE,
                 _quartiles(idle),
                 "yes" if idle.summary["same_bits"] else "no",
             ]

@@ -5,7 +5,7 @@ import math
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterable, Sequence, TypeVar
+from typing import Callable, Iterable, Sequence, TypeVar
 
 import numpy as np
 
@@ -169,6 +169,15 @@ def largest(values: Iterable[float]) -> float:
     """NaN if one of them is."""
     found = list(values)
     return math.nan if any(map(math.isnan, found)) else max(found)
+
+
+def cheapest(points: list[Point], measure: Callable[[Point], float], aim: float) -> Point | None:
+    """That is within the aim with all finer ones of its setting: an error may pass through zero on its way."""
+
+    def reached(p: Point) -> bool:
+        return all(measure(one) <= aim for one in points if one.label == p.label and one.resolution >= p.resolution)
+
+    return min((p for p in points if reached(p)), key=lambda p: p.cost, default=None)
 
 
 Item = TypeVar("Item")

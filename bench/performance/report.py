@@ -99,8 +99,8 @@ At the same spacing; in brackets horizon 4. Bias, but in the last column one run
 
 ### Recommended settings
 
-The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim. Options not named are
-the library's.
+The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim, as
+do all finer ones of the same setting. Options not named are the library's.
 
 {sections.recommended(collection)}
 
