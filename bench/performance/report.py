@@ -40,11 +40,11 @@ def compose(collection: Collection, drawn: set[str]) -> str:
 
 Columns of glass beads on a rough floor, released at once: both sides, a = 1.25 (0.08 m wide, 0.05 m high), a = 5 (0.08 m,
 0.20 m), and one side beside a smooth wall (0.20 m, 0.14 m, grains of 0.7 mm). Peak and run-out (x - L0)/L0 at 1 s. There
-are several run-outs, since a film about a spacing thick runs ahead of the deposit, and its mass goes with the spacing: that
-of *90 % of the mass* does not see the film from L/dl = 16 on; that of *98 %* ends inside the film at coarse spacings and
-outside of it at fine ones; that of the *front* is where the deposit is 0.05 H thick, a spacing at L/dl = 32; that of the
-*tips*, the ends of the connected deposit, is the film's. "The error" is that of the peak and the run-out of 90 % of the mass,
-whichever is larger.
+are several run-outs, since a film of single particles, thinner than 0.05 H, runs ahead of the deposit. If it is about a
+spacing thick (not measured), it holds some 2 % of the mass on each side at L/dl = 32, 1 % at 64: so the run-out of *98 %* of
+the mass ends inside it at coarse spacings and outside of it at fine ones. That of *90 %* ends behind it. That of the *front*
+is where the deposit is 0.05 H thick, a spacing at L/dl = 32; that of the *tips*, the ends of the connected deposit, is the
+film's. "The error" is that of the peak and the run-out of 90 % of the mass, whichever is larger.
 
 The flow is chaotic: every setting is an ensemble of runs whose particles start up to {runs.JITTER:g} dl beside each
 other's. *Bias* is the error of their mean, ± two standard errors (those of the converged solution included). *One run* is
