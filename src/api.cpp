@@ -10,6 +10,7 @@
 #include "error.hpp"
 #include "fields.hpp"
 #include "granperi/gp.h"
+#include "io/checkpoint.hpp"
 #include "io/output.hpp"
 #include "sim.hpp"
 
@@ -18,6 +19,7 @@ struct gp_sim {
 
     gp::Sim sim;
     std::unique_ptr<gp::io::Output> output;
+    gp::io::OutputPosition left_off; // of a checkpoint that this was loaded from, until an output is open again
 
     // What views point to, and the last measured state; good while the epoch is the same.
     gp::Field<double> derived[15];
@@ -51,16 +53,22 @@ template <class Body> gp_status guard(const Body &body) noexcept {
     }
 }
 
+void require_simulation(const gp_sim *handle) {
+    if (!handle)
+        throw make_error(GP_E_ARGUMENT,
+                         "sim = NULL: expected a simulation of gp_create or gp_load; has that call failed?");
+}
+
 // For calls that change the simulation: not possible inside its callback.
 Sim &outside_callback(gp_sim *handle, const char *call) {
-    require_pointer("sim", handle);
+    require_simulation(handle);
     if (handle->sim.in_callback())
         throw make_error(GP_E_STATE, "%s: called from inside the simulation's callback", call);
     return handle->sim;
 }
 
 Sim &readable(gp_sim *handle) {
-    require_pointer("sim", handle);
+    require_simulation(handle);
     handle->sim.prepare();
     return handle->sim;
 }
@@ -241,7 +249,7 @@ gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id) {
 
 gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy) {
     return guard([&] {
-        require_pointer("sim", sim);
+        require_simulation(sim);
         sim->sim.set_plate_velocity(plate, vx, vy);
         return GP_OK;
     });
@@ -404,9 +412,10 @@ gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int64_t *n
 
 gp_status gp_save(gp_sim *sim, const char *path) {
     return guard([&]() -> gp_status {
-        outside_callback(sim, "gp_save");
+        require_simulation(sim);
         require_pointer("path", path);
-        unsupported("gp_save", "the checkpoint");
+        io::save_checkpoint(path, sim->sim, sim->output ? sim->output->position(sim->sim.world()) : sim->left_off);
+        return GP_OK;
     });
 }
 
@@ -415,7 +424,16 @@ gp_status gp_load_file(const char *path, gp_sim **sim) {
         require_pointer("sim", sim);
         *sim = nullptr;
         require_pointer("path", path);
-        unsupported("gp_load", "the checkpoint");
+        std::unique_ptr<gp_sim> loaded;
+        const auto create = [&](const gp_config &config) -> Sim & {
+            loaded = std::make_unique<gp_sim>(config);
+            return loaded->sim;
+        };
+        io::OutputPosition left_off;
+        io::load_checkpoint(path, create, left_off);
+        loaded->left_off = std::move(left_off);
+        *sim = loaded.release();
+        return GP_OK;
     });
 }
 
@@ -433,15 +451,16 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
             throw make_error(GP_E_STATE, "gp_output_open: an output is open already; gp_output_close it first");
         const gp_output options = output ? complete(output, io::default_output(), "gp_output") : io::default_output();
         s.prepare();
-        sim->output = std::make_unique<io::Output>(path, options, s.world());
+        sim->output = std::make_unique<io::Output>(path, options, s.world(), sim->left_off);
         s.sink = sim->output.get();
+        sim->left_off = {};
         return GP_OK;
     });
 }
 
 gp_status gp_output_write(gp_sim *sim) {
     return guard([&] {
-        require_pointer("sim", sim);
+        require_simulation(sim);
         if (!sim->output)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
         sim->output->write(readable(sim).world());

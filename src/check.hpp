@@ -30,6 +30,9 @@ inline void require_between(const char *name, double value, double low, double h
 }
 
 inline void require_choice(const char *name, int64_t value, int64_t count) {
+    if (count == 0)
+        throw make_error(GP_E_ARGUMENT, "%s = %lld: the simulation has none yet, add it first", name,
+                         static_cast<long long>(value));
     if (value < 0 || value >= count)
         throw make_error(GP_E_ARGUMENT, "%s = %lld: expected a whole number from 0 to %lld", name,
                          static_cast<long long>(value), static_cast<long long>(count - 1));
@@ -38,10 +41,6 @@ inline void require_choice(const char *name, int64_t value, int64_t count) {
 inline void require_pointer(const char *name, const void *pointer) {
     if (!pointer)
         throw make_error(GP_E_ARGUMENT, "%s = NULL: expected a pointer", name);
-}
-
-[[noreturn]] inline void unsupported(const char *option, const char *what) {
-    throw make_error(GP_E_UNSUPPORTED, "%s: %s is not in this version", option, what);
 }
 
 } // namespace gp

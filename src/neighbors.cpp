@@ -13,8 +13,9 @@ void CellGrid::sort(Particles &particles, double cell_width, double cell_height,
     count_ = n;
     if (n == 0)
         return;
-    const auto [x_low, x_high] = std::minmax_element(particles.x.begin(), particles.x.end());
-    const auto [y_low, y_high] = std::minmax_element(particles.y.begin(), particles.y.end());
+    // Without the images of before, which are in the arrays behind.
+    const auto [x_low, x_high] = std::minmax_element(particles.x.begin(), particles.x.begin() + n);
+    const auto [y_low, y_high] = std::minmax_element(particles.y.begin(), particles.y.begin() + n);
     box_ = {*x_low, *x_high, *y_low, *y_high};
     // A box too wide to number its cells gets wider cells: still right, only slower.
     const double widest = std::max(box_.x_max - box_.x_min, box_.y_max - box_.y_min);

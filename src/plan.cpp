@@ -218,6 +218,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("clusters", world.clusters.bytes());
     optional("neighbor_lists", t.scheme != Scheme::adjoint, "operators on single particles",
              "the default scheme's operators work on clusters", world.neighbors.bytes());
+    common("list_origin", world.list_origin.bytes());
     entries.push_back(field_entry("images", t.particles && t.periodic,
                                   t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
                                   world.images.bytes()));

@@ -290,6 +290,7 @@ int32_t Scene::add_plate(const gp_plate &p) {
             "0 as long as normal_pressure is 0");
 
     PlateSpec spec{Segment(p.x0, p.y0, p.x1, p.y1),
+                   {p.x1, p.y1},
                    p.friction,
                    p.wall_mu,
                    {p.vx, p.vy},
@@ -334,6 +335,12 @@ void require_tangential(const PlateSpec &plate, const Vector &velocity, const ch
             "%s velocity = (%g, %g), %g along the normal: expected 0 along the normal of a plate that moves "
             "there under its load",
             name, velocity.x(), velocity.y(), normal);
+}
+
+void Scene::set_plate_start(int32_t plate, const Vector &start) {
+    require_finite("start x", start.x());
+    require_finite("start y", start.y());
+    plates_[plate].start = start;
 }
 
 void Scene::drive_plate(int32_t plate, const Vector &velocity) {

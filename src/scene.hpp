@@ -44,6 +44,7 @@ struct MotionTable {
 
 struct PlateSpec {
     Segment segment; // where it stands at time 0, before its table displaces it
+    Vector end;      // end 1 of it, as it was given
     int32_t friction;
     double wall_mu;
     Vector velocity;
@@ -111,6 +112,8 @@ public:
     int32_t add_plate(const gp_plate &plate);
     // From now on the plate has this constant velocity in place of its motion.
     void drive_plate(int32_t plate, const Vector &velocity);
+    // Of a plate that was driven before the first step: how its table, which is gone, displaced it.
+    void set_plate_start(int32_t plate, const Vector &start);
 
     const gp_config &config() const { return config_; }
     Period period() const {

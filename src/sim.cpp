@@ -90,7 +90,7 @@ std::vector<std::string> Sim::take_step() {
     return notes;
 }
 
-gp_status Sim::advance(gp_sim *handle) {
+gp_status Sim::advance(gp_sim *handle, double t_end) {
     std::vector<std::string> notes;
     try {
         notes = take_step();
@@ -99,10 +99,14 @@ gp_status Sim::advance(gp_sim *handle) {
         ++epoch_;
         throw;
     } catch (...) { // out of memory inside a step leaves it half done
-        diverged_ = true;
+        diverged_ = half_done_ = true;
         ++epoch_;
         throw;
     }
+    // The step that was to land on the end has done so but for rounding: this before anyone looks.
+    Clock &clock = world_->clock;
+    if (t_end - clock.time < 1e-9 * clock.dt)
+        clock.time = t_end;
     // An output that fails takes its frame with it, not the step: the callback sees that first.
     std::exception_ptr lost_frame;
     try {
@@ -132,7 +136,7 @@ gp_status Sim::step(gp_sim *handle, int64_t n) {
     require_steppable();
     world_->clock.time_left = 0;
     for (int64_t k = 0; k < n; ++k)
-        if (const gp_status status = advance(handle); status != GP_OK)
+        if (const gp_status status = advance(handle, INFINITY); status != GP_OK)
             return status;
     return GP_OK;
 }
@@ -147,11 +151,7 @@ gp_status Sim::run(gp_sim *handle, double t_end) {
     Clock &clock = world_->clock;
     while (clock.time < t_end) {
         clock.time_left = t_end - clock.time;
-        const gp_status status = advance(handle);
-        // The step that was to land on the end has done so but for rounding.
-        if (t_end - clock.time < 1e-9 * clock.dt)
-            clock.time = t_end;
-        if (status != GP_OK)
+        if (const gp_status status = advance(handle, t_end); status != GP_OK)
             return status;
     }
     return GP_OK;
@@ -161,10 +161,12 @@ gp_status Sim::run(gp_sim *handle, double t_end) {
 
 void Sim::require_unstarted(const char *call) const {
     if (started_)
-        throw make_error(GP_E_STATE, "%s: the scene is fixed once the first step is taken (step %lld)", call,
+        throw make_error(GP_E_STATE,
+                         "%s: the scene is fixed once the first step is taken (step %lld): add to it before", call,
                          static_cast<long long>(world_->clock.step));
     if (sink)
-        throw make_error(GP_E_STATE, "%s: the scene is fixed while an output is open", call);
+        throw make_error(GP_E_STATE,
+                         "%s: the scene is fixed while an output is open: add to it before, or close the output", call);
 }
 
 void Sim::scene_changed() {
@@ -235,9 +237,30 @@ void Sim::prepare() {
         world->max_compression =
             std::max(world->max_compression, world->particles.density[i] / world->material_of(i).density - 1);
 
+    set_world(std::move(world));
+}
+
+void Sim::set_world(std::unique_ptr<World> world) {
     traits_ = traits_of(scene_, world->constants);
     stages_ = make_stages(traits_);
     world_ = std::move(world);
+}
+
+Progress Sim::progress() const {
+    if (half_done_)
+        throw make_error(GP_E_STATE,
+                         "gp_save: the last step ran out of memory half-way; an earlier checkpoint is good");
+    return {started_, diverged_, warnings_.told(), epoch_, wall_seconds_};
+}
+
+void Sim::resume(std::unique_ptr<World> world, const Progress &progress) {
+    if (world)
+        set_world(std::move(world));
+    started_ = progress.started;
+    diverged_ = progress.diverged;
+    warnings_.set_told(progress.told);
+    epoch_ = progress.epoch;
+    wall_seconds_ = progress.wall_seconds;
 }
 
 void Sim::require_steppable() const {

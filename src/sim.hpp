@@ -21,6 +21,15 @@ public:
     virtual void step_done(const World &world) = 0; // throws gp::Error(GP_E_IO)
 };
 
+// Where a simulation is, beside its world.
+struct Progress {
+    bool started = false;  // the scene is fixed
+    bool diverged = false; // no more steps
+    uint32_t told = 0;     // warnings
+    uint64_t epoch = 0;
+    double wall_seconds = 0;
+};
+
 class Sim {
 public:
     explicit Sim(const gp_config &config) : scene_(config) {}
@@ -43,6 +52,11 @@ public:
 
     // Builds what the stages work on from the scene, if that is still to be done. Readers call it first.
     void prepare();
+    // For a checkpoint: throws after a step that ran out of memory half-way.
+    Progress progress() const;
+    // Goes on from a checkpoint: world is that of this scene, NULL before the first step.
+    void resume(std::unique_ptr<World> world, const Progress &progress);
+    void set_plate_start(int32_t plate, const Vector &start) { scene_.set_plate_start(plate, start); }
     const Scene &scene() const { return scene_; }
     const World &world() const { return *world_; }
     std::vector<gp_plan_entry> plan() const { return describe_plan(stages_, traits_, *world_); }
@@ -60,13 +74,14 @@ private:
     void check_demanded_step() const;
     void run_stages();
     std::vector<std::string> take_step(); // or a piece of it after halving; returns what the log is to be told
-    gp_status advance(gp_sim *handle);    // one step, output and callback
+    void set_world(std::unique_ptr<World> world);
+    gp_status advance(gp_sim *handle, double t_end); // one step, output and callback
 
     Scene scene_;
     std::unique_ptr<World> world_;
     Traits traits_{};
     std::vector<PlannedStage> stages_;
-    bool started_ = false, diverged_ = false, in_callback_ = false;
+    bool started_ = false, diverged_ = false, half_done_ = false, in_callback_ = false;
     Warnings warnings_;
     uint64_t epoch_ = 0;
     double wall_seconds_ = 0;

@@ -63,6 +63,23 @@ void Plate::place(double time, double dt) {
     velocity_ += fall_speed_ * spec_->segment.normal;
 }
 
+Plate::Motion Plate::motion() const {
+    return {driven_,     driven_since_, driven_from_,   driven_velocity_, fallen_,
+            fall_speed_, wrapped_,      placed_.origin, velocity_};
+}
+
+void Plate::set_motion(const Motion &motion) {
+    driven_ = motion.driven;
+    driven_since_ = motion.driven_since;
+    driven_from_ = motion.driven_from;
+    driven_velocity_ = motion.driven_velocity;
+    fallen_ = motion.fallen;
+    fall_speed_ = motion.fall_speed;
+    wrapped_ = motion.wrapped;
+    placed_.origin = motion.origin;
+    velocity_ = motion.velocity;
+}
+
 int64_t Walls::count_overlapping(const Particles &particles, double margin) const {
     int64_t found = 0;
     for (int64_t i = 0; i < particles.count; ++i) {

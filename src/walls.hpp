@@ -32,6 +32,19 @@ public:
     bool moves_after(double time) const;
     // Takes whole periods off where it stands, so that its middle is within the period. displacement() keeps them.
     void wrap(const Period &period, double time);
+    // All that changes of a plate, but for the loads.
+    struct Motion {
+        bool driven = false;
+        double driven_since = 0;
+        Vector driven_from = Vector::Zero(), driven_velocity = Vector::Zero();
+        double fallen = 0, fall_speed = 0; // m, m/s, along the normal, of a loaded plate
+        double wrapped = 0;                // m, whole periods taken off in x
+        Vector origin = Vector::Zero();    // m, where place() put end 0
+        Vector velocity = Vector::Zero();
+    };
+    Motion motion() const;
+    void set_motion(const Motion &motion);
+
     // Displacement at `time`, and the mean velocity of the step that follows.
     void place(double time, double dt);
 

@@ -16,6 +16,11 @@ public:
     std::vector<std::string> of_step(const World &world);  // after each
     std::vector<std::string> of_retry(const World &world, const char *error);
 
+    // A bit per kind that has been told.
+    uint32_t told() const { return told_; }
+    void set_told(uint32_t told) { told_ = told; }
+    static constexpr uint32_t all_kinds = (1u << 8) - 1;
+
 private:
     enum Kind {
         scene, // all of its own

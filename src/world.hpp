@@ -83,6 +83,14 @@ struct StepStart {
     std::vector<Field<double>> made;   // of fields that are made anew: memory is exchanged, not copied
 };
 
+// What the neighbour lists were made of. A checkpoint keeps it in place of the lists, which it makes anew from it.
+struct ListOrigin {
+    Field<double> x, y;         // m, of the particles in sorted order
+    std::vector<Vector> plates; // m, end 0 of each
+
+    int64_t bytes() const { return static_cast<int64_t>((x.capacity() + y.capacity()) * sizeof(double)); }
+};
+
 struct World {
     const Scene *scene = nullptr;
     Constants constants;
@@ -103,7 +111,8 @@ struct World {
 
     // Neighbour lists are good while particles (and plates) have moved by less than the skin against each other.
     bool lists_valid = false;
-    bool lists_new = false;   // made in the present step: it has sorted the particles
+    bool lists_new = false; // made in the present step: it has sorted the particles
+    ListOrigin list_origin;
     Field<int32_t> listed;    // particle of each place in the lists and cells, where a sort was undone; empty: the same
     double skin = 0;          // m
     double shifted = 0;       // m, bound on the relative shift since the lists were made

@@ -17,7 +17,7 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-sys.path.insert(1, str(HERE.parent / "common"))
+sys.path.insert(0, str(HERE.parent / "common"))
 
 import measures
 import results

@@ -4,7 +4,7 @@ sources."""
 import sys
 from pathlib import Path
 
-sys.path.insert(1, str(Path(__file__).resolve().parents[1] / "common"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import runs
 from batch import run_missing

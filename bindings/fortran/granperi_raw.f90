@@ -362,6 +362,8 @@ module granperi_raw
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t) :: compression !! deflate level, 0 .. 9 [4]
         integer(c_int32_t) :: single_precision !! 1: floating-point fields as 32 bits; time stays 64 [0]
+        integer(c_int64_t) :: append
+            !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
     end type
 
     abstract interface
@@ -501,6 +503,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> A floor, wall, gate or lid. Its table of displacements is copied.
         function gp_add_plate(sim, plate, id) bind(c, name="gp_add_plate") result(answer)
             import
             type(c_ptr), value :: sim
@@ -598,6 +601,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> The state at this instant; state->struct_size has to be set.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
@@ -631,6 +635,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> What the material does to a plate, and where the plate has got to; load->struct_size has to be set.
         function gp_get_plate_load(sim, plate, load) bind(c, name="gp_get_plate_load") result(answer)
             import
             type(c_ptr), value :: sim
@@ -650,9 +655,24 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> Bitwise restart. Not yet: both return GP_E_UNSUPPORTED. gp_load(path, &sim) reads what gp_save wrote. C has
-        !> one name space for types and functions, and gp_load is also the type above: hence a macro over the function
-        !> gp_load_file (binaries also export it as gp_load).
+        !> Checkpoint: gp_save writes all of a simulation to one file, from which gp_load makes another one that goes on
+        !> with the same bits: in another process, with any number of threads, on a processor with the same instruction
+        !> sets (docs/trust.md). Saved are config, materials, columns, particles and plates with their motion, the state
+        !> of the engine, energies, loads, counters, which warnings were given, and where the open output stands. Not
+        !> saved are the host's own: callback and log, which are to be set again; an open output, which is to be opened
+        !> again with gp_output.append = 1; the counters of gp_get_plan begin anew. gp_config.threads is saved: with 0
+        !> it is the default of the new process. gp_save only reads: epoch and views stay as they are. It may be called
+        !> before the first step, after GP_E_DIVERGED (what is loaded can be read and saved, too, not stepped) and
+        !> inside the callback, where the step is complete. After GP_E_MEMORY inside a step it is GP_E_STATE. The file
+        !> is written beside its place as <path>.part-<process>-<number>, synced and renamed: whatever happens, path is
+        !> the new checkpoint or the one before. A program that is killed may leave the part, to be deleted. After
+        !> GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or
+        !> be saved elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle. gp_load refuses
+        !> a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer
+        !> format: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;
+        !> another one may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED
+        !> in a build without HDF5. C has one name space for types and functions, and gp_load is also the type above:
+        !> hence a macro over the function gp_load_file (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim
@@ -677,7 +697,14 @@ module granperi_raw
 
         !> Creates the HDF5 file `path` (H5MD layout, an existing one is replaced) and beside it an XDMF file (path with
         !> its extension replaced by .xdmf) for ParaView. Every completed frame survives a crash of the program. output
-        !> NULL: the defaults. One output at a time: GP_E_STATE if one is open.
+        !> NULL: the defaults. One output at a time: GP_E_STATE if one is open. With append = 1 the file has to exist,
+        !> with the same particles, fields and precision: GP_E_IO if it does not. Frames that are later than the
+        !> simulation are removed from it, and the next ones follow without a gap or a double: - right after gp_load, if
+        !> the file was open at gp_save: the file goes back to the frames that it had then, and the next one is due when
+        !> it was due then. GP_E_IO if some of them are missing; - else frames of later steps are removed, and the next
+        !> one is due at the next multiple of every_seconds. No frame is written at the start. The file is written anew
+        !> beside its place and renamed: until then it is as it was. After gp_load the file that was open at gp_save is
+        !> not replaced: with append = 0 this is GP_E_STATE.
         function gp_output_open(sim, path, output) bind(c, name="gp_output_open") result(answer)
             import
             type(c_ptr), value :: sim

@@ -90,6 +90,7 @@ module granperi_simulation
             character(*), intent(out), optional :: message
         end subroutine
 
+        !> Whether there is a simulation: after create or load, and before destroy.
         module function is_created(self) result(answer)
             class(gp_simulation), intent(in) :: self
             logical :: answer

@@ -355,7 +355,7 @@ contains
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
-    function new_gp_output(every_seconds, fields, compression, single_precision, status, message) result(made)
+    function new_gp_output(every_seconds, fields, compression, single_precision, append, status, message) result(made)
         real(c_double), intent(in), optional :: every_seconds
             !! s; > 0: a frame at the start and after the first step at or past each multiple; 0: only by
             !! gp_output_write [0]
@@ -365,6 +365,8 @@ contains
         integer(c_int32_t), intent(in), optional :: compression !! deflate level, 0 .. 9 [4]
         integer(c_int32_t), intent(in), optional :: single_precision
             !! 1: floating-point fields as 32 bits; time stays 64 [0]
+        integer(c_int64_t), intent(in), optional :: append
+            !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_output) :: made
@@ -376,6 +378,7 @@ contains
         if (present(fields)) made%fields = fields
         if (present(compression)) made%compression = compression
         if (present(single_precision)) made%single_precision = single_precision
+        if (present(append)) made%append = append
     end function
 
     subroutine view_gp_particles(raw, view)

@@ -48,8 +48,9 @@ class Header:
         return next((function for function in self.of(Function) if function.name == name), None)
 
 
-def read_header(path, cc=("cc",)):
-    return Header(Parser(preprocess(path, cc)).parse())
+def read_header(path, cc=("cc",), words_of=None):
+    """words_of: what makes the documentation of a comment; without, its words in one line."""
+    return Header(Parser(preprocess(path, cc), words_of or tidy).parse())
 
 
 def preprocess(path, cc):
@@ -78,7 +79,8 @@ def tidy(comment):
 
 
 class Parser:
-    def __init__(self, text):
+    def __init__(self, text, words_of=tidy):
+        self.words_of = words_of
         self.tokens = []
         for match in TOKEN.finditer(text):
             if match.lastgroup != "blank":
@@ -97,7 +99,7 @@ class Parser:
         """Steps over comments; the last one is returned."""
         doc = ""
         while self.position < len(self.tokens) and self.tokens[self.position][0] == "comment":
-            doc = tidy(self.tokens[self.position][1])
+            doc = self.words_of(self.tokens[self.position][1])
             self.position += 1
         return doc
 

@@ -111,7 +111,9 @@ contains
         character(*), intent(in) :: about
         type(example_options), intent(in) :: options
         type(example_extra), intent(in), optional :: extra
-        print "(a)", about, "", "options [default]"
+        character(300) :: program_name
+        call get_command_argument(0, program_name)
+        print "(a)", "usage: "//trim(program_name)//" [options]", "", about, "", "options [default]"
         if (present(extra)) print "(2x, a, t26, a, ' [', a, ']')", extra%name, extra%help, plain(extra%value)
         print "(2x, a, t26, a, ' [', i0, ']')", "--resolution N", "particles over the reference length", &
             nint(options%resolution)

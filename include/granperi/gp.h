@@ -18,7 +18,7 @@
  *   - After fork(), a child may only run simulations with threads = 1 if the parent has run any with more: GNU OpenMP
  *     does not survive a fork. Where other programs want the processors, use fewer threads or OMP_WAIT_POLICY=passive.
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
- *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), written to its open output
+ *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), saved (gp_save), written to its open output
  *     (gp_output_write) and driven (gp_set_plate_velocity). Every other call on it returns GP_E_STATE.
  *
  * References
@@ -264,6 +264,7 @@ GP_API gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id
 GP_API gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y,
                                   const double *vx, const double *vy, int32_t *id);
 
+/* A floor, wall, gate or lid. Its table of displacements is copied. */
 GP_API gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 
 /* The host drives the plate at this velocity (m/s) from now on, from where it is; replaces constant velocity or table.
@@ -430,6 +431,7 @@ typedef struct gp_state {
     double max_compression;        /* largest density over the material's own so far, less 1 */
 } gp_state;
 
+/* The state at this instant; state->struct_size has to be set. */
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
 
 /* Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction (radius 2 dl)
@@ -449,6 +451,7 @@ typedef struct gp_load {
     double impulse_x, impulse_y; /* N s/m, integral of fx and fy over time since the start */
 } gp_load;
 
+/* What the material does to a plate, and where the plate has got to; load->struct_size has to be set. */
 GP_API gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load);
 
 typedef struct gp_plan_entry {
@@ -468,9 +471,27 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
 
 /* -------------------------------------------------------------------------------------------------- files */
 
-/* Bitwise restart. Not yet: both return GP_E_UNSUPPORTED.
- * gp_load(path, &sim) reads what gp_save wrote. C has one name space for types and functions, and gp_load is also the
- * type above: hence a macro over the function gp_load_file (binaries also export it as gp_load). */
+/* Checkpoint: gp_save writes all of a simulation to one file, from which gp_load makes another one that goes on with the
+ * same bits: in another process, with any number of threads, on a processor with the same instruction sets (docs/trust.md).
+ *
+ * Saved are config, materials, columns, particles and plates with their motion, the state of the engine, energies, loads,
+ * counters, which warnings were given, and where the open output stands. Not saved are the host's own: callback and log,
+ * which are to be set again; an open output, which is to be opened again with gp_output.append = 1; the counters of
+ * gp_get_plan begin anew. gp_config.threads is saved: with 0 it is the default of the new process.
+ *
+ * gp_save only reads: epoch and views stay as they are. It may be called before the first step, after GP_E_DIVERGED (what is
+ * loaded can be read and saved, too, not stepped) and inside the callback, where the step is complete. After GP_E_MEMORY inside
+ * a step it is GP_E_STATE. The file is written beside its place as <path>.part-<process>-<number>, synced and renamed: whatever
+ * happens, path is the new checkpoint or the one before. A program that is killed may leave the part, to be deleted. After
+ * GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or be saved
+ * elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle.
+ *
+ * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer
+ * format: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
+ * it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5.
+ *
+ * C has one name space for types and functions, and gp_load is also the type above: hence a macro over the function
+ * gp_load_file (binaries also export it as gp_load). */
 GP_API gp_status gp_save(gp_sim *sim, const char *path);
 GP_API gp_status gp_load_file(const char *path, gp_sim **sim);
 #define gp_load(path, sim) gp_load_file((path), (sim))
@@ -483,6 +504,8 @@ typedef struct gp_output {
                                  [position, velocity, pressure, shear_rate, column] */
     int32_t compression;      /* deflate level, 0 .. 9 [4] */
     int32_t single_precision; /* 1: floating-point fields as 32 bits; time stays 64 [0] */
+    int64_t append;           /* 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced
+                                 [0] */
 } gp_output;
 
 /* Fills *output with the defaults. size: sizeof(gp_output). */
@@ -490,7 +513,15 @@ GP_API gp_status gp_output_init(gp_output *output, size_t size);
 
 /* Creates the HDF5 file `path` (H5MD layout, an existing one is replaced) and beside it an XDMF file (path with its
  * extension replaced by .xdmf) for ParaView. Every completed frame survives a crash of the program. output NULL: the
- * defaults. One output at a time: GP_E_STATE if one is open. */
+ * defaults. One output at a time: GP_E_STATE if one is open.
+ *
+ * With append = 1 the file has to exist, with the same particles, fields and precision: GP_E_IO if it does not. Frames
+ * that are later than the simulation are removed from it, and the next ones follow without a gap or a double:
+ *   - right after gp_load, if the file was open at gp_save: the file goes back to the frames that it had then, and the next
+ *     one is due when it was due then. GP_E_IO if some of them are missing;
+ *   - else frames of later steps are removed, and the next one is due at the next multiple of every_seconds.
+ * No frame is written at the start. The file is written anew beside its place and renamed: until then it is as it was.
+ * After gp_load the file that was open at gp_save is not replaced: with append = 0 this is GP_E_STATE. */
 GP_API gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output);
 
 /* Writes a frame of the present state; GP_E_STATE if no output is open. */

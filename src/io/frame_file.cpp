@@ -5,6 +5,7 @@
 #include "error.hpp"
 #include "io/frame_store.hpp"
 #include "io/hdf5_writer.hpp"
+#include "io/safe_file.hpp"
 #include "io/xdmf_file.hpp"
 
 namespace gp::io {
@@ -13,7 +14,7 @@ namespace {
 
 // Views per group. A small group's table of names never has to move, which keeps every change of it a single write.
 constexpr int64_t views_per_group = 256;
-constexpr int64_t groups_expected = 512;
+constexpr int64_t groups_expected = 480; // a table of names in one page: see Store
 
 struct Element {
     std::string name, unit;
@@ -31,6 +32,8 @@ struct FrameFile::Impl : Hdf5Writer {
     int64_t count = 0, frames = 0;
     int compression = 0;
     bool single = false, is_open = false; // open: the files on the disk are ours
+    const char *suffix = "";              // of the files until they are published
+    int replaced_fd = -1;                 // of the XDMF file that will be replaced: holds its lock
     std::vector<Element> elements;
     std::vector<double> packed;
 
@@ -41,6 +44,16 @@ struct FrameFile::Impl : Hdf5Writer {
     ~Impl() {
         if (store.fd >= 0)
             ::close(store.fd);
+        release_replaced();
+        if (*suffix != '\0' && !side_path.empty()) { // never published
+            ::unlink((path + suffix).c_str());
+            ::unlink((side_path + suffix).c_str());
+        }
+    }
+
+    void release_replaced() {
+        if (replaced_fd >= 0)
+            ::close(std::exchange(replaced_fd, -1));
     }
 
     // ----------------------------------------------------------------------------------------- opening and closing
@@ -56,6 +69,16 @@ struct FrameFile::Impl : Hdf5Writer {
         throw io_failure(name, "create the file", "not a regular file");
     }
 
+    // Not the HDF5 file itself is locked, because the readers of HDF5 do that. A writer renames a new XDMF file into the
+    // place of the one that it has locked, which then is no more the file of that name.
+    static bool lock(int side_fd, const std::string &name) {
+        struct stat own, there;
+        if (::flock(side_fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            return false;
+        return ::fstat(side_fd, &own) == 0 && ::stat(name.c_str(), &there) == 0 && own.st_ino == there.st_ino &&
+               own.st_dev == there.st_dev;
+    }
+
     void open_files() {
         check_version();
         const std::filesystem::path name(path);
@@ -64,12 +87,17 @@ struct FrameFile::Impl : Hdf5Writer {
         side_path = std::filesystem::path(name).replace_extension(".xdmf").string();
         if (side_path == path)
             throw io_failure(path, "create the file", "the extension .xdmf is for the file beside it");
-        store.fd = open_file(path);
-        const int side_fd = open_file(side_path);
-        side.start(side_fd, name.filename().string(), count, single);
-        // Not on the HDF5 file itself, because the readers of HDF5 lock that.
-        if (::flock(side_fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-            throw io_failure(path, "create the file", "another output is writing to it");
+        const char *const locked = "another output is writing to it";
+        if (*suffix != '\0') {
+            replaced_fd = ::open(side_path.c_str(), O_RDWR | O_CLOEXEC);
+            if (replaced_fd >= 0 && !lock(replaced_fd, side_path))
+                throw io_failure(path, "continue the file", locked);
+        }
+        store.fd = open_file(path + suffix);
+        const int side_fd = open_file(side_path + suffix);
+        side.start(side_fd, replaceable_path(side_path + suffix), name.filename().string(), count, single);
+        if (!lock(side_fd, side_path + suffix))
+            throw io_failure(path, "create the file", locked);
         if (::ftruncate(store.fd, 0) != 0 || ::ftruncate(side_fd, 0) != 0)
             throw io_failure(path, "empty the file", errno_text(errno));
         is_open = true;
@@ -121,9 +149,7 @@ struct FrameFile::Impl : Hdf5Writer {
             store.rollback();
         if (::close(std::exchange(store.fd, -1)) != 0 && error == 0)
             error = errno;
-        int side_error = side.write();
-        if (const int close_error = side.close(); side_error == 0)
-            side_error = close_error;
+        const int side_error = side.close();
         if (error != 0)
             throw io_failure(path, "close the file", good ? errno_text(error) : hdf5_text());
         if (side_error != 0)
@@ -319,6 +345,18 @@ struct FrameFile::Impl : Hdf5Writer {
         side.end_frame();
     }
 
+    // The XDMF file first: it lists frames that the HDF5 file has before and after.
+    void publish() {
+        if (::fsync(store.fd) != 0)
+            throw io_failure(path, "sync the file", errno_text(errno));
+        const std::string side_target = replaceable_path(side_path);
+        move_into_place(side_path + suffix, side_target);
+        side.renamed(side_target);
+        move_into_place(path + suffix, replaceable_path(path));
+        suffix = "";
+        release_replaced();
+    }
+
     void write_side() {
         if (const int error = side.write())
             throw io_failure(side_path, "write the file", errno_text(error));
@@ -334,9 +372,11 @@ struct FrameFile::Impl : Hdf5Writer {
 };
 
 FrameFile::FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
-                     const std::vector<const double *> &constant_values, int compression, bool single_precision)
+                     const std::vector<const double *> &constant_values, int compression, bool single_precision,
+                     bool beside)
     : impl_(new Impl) {
     Session session;
+    impl_->suffix = beside ? ".part" : "";
     impl_->path = path;
     impl_->count = header.count;
     impl_->compression = compression;
@@ -384,6 +424,11 @@ void FrameFile::write(int64_t step, double time, const std::vector<const double 
     impl.list_frame(time);
     ++impl.frames;
     impl.write_side();
+}
+
+void FrameFile::publish() {
+    Session session;
+    impl_->publish();
 }
 
 void FrameFile::close() {

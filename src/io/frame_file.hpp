@@ -42,9 +42,10 @@ class FrameFile {
 public:
     // Replaces an existing file. (ParaView's reader takes no file whose name contains a colon.) The fields must include
     // a "position" of two components. constant_values: one pointer per component of each constant field, in order.
-    // compression: deflate level, 0 for none.
+    // compression: deflate level, 0 for none. beside: the files are <path>.part and the like until publish().
     FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
-              const std::vector<const double *> &constant_values, int compression, bool single_precision);
+              const std::vector<const double *> &constant_values, int compression, bool single_precision,
+              bool beside = false);
     FrameFile(const FrameFile &) = delete;
     FrameFile &operator=(const FrameFile &) = delete;
     ~FrameFile(); // closes; an error then is lost
@@ -52,6 +53,9 @@ public:
     // components: one pointer per component of each field that is not constant, in order, to `count` values in the
     // order of id. After an error the frame is lost, the earlier ones are not, and the next call tries again.
     void write(int64_t step, double time, const std::vector<const double *> &components);
+
+    // Puts the files into their place. Before, those that are there are as they were.
+    void publish();
 
     // The file is closed also when this throws. A second call does nothing.
     void close();

@@ -70,6 +70,18 @@ struct Store {
         }
     }
 
+    // A program that is killed while it writes leaves a part of it: the kernel copies page by page and looks for a kill
+    // between two. So no block lies across the end of a page: half of a changed table of names or of a node could not be
+    // read (HDF5 goes round for ever in half of a global heap). A global heap, of a page, must not grow either, as it would
+    // if it were the last block.
+    static constexpr haddr_t page = 4096; // or a multiple
+
+    haddr_t allocate(hsize_t size) noexcept {
+        const haddr_t address = size <= page && eoa % page + size > page ? eoa + page - eoa % page : eoa;
+        eoa = address + size + (size == page ? 8 : 0);
+        return address;
+    }
+
     void write(H5FD_mem_t type, haddr_t address, size_t size, const void *source) noexcept {
         end = std::max(end, address + size);
         if (error == 0 && address >= committed) {
@@ -173,6 +185,7 @@ inline const H5FD_class_t &store_driver() {
                 *flags = H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
             return 0;
         };
+        c.alloc = [](H5FD_t *file, H5FD_mem_t, hid_t, hsize_t size) { return store_of(file).allocate(size); };
         c.get_eoa = [](const H5FD_t *file, H5FD_mem_t) { return store_of(file).eoa; };
         c.set_eoa = [](H5FD_t *file, H5FD_mem_t, haddr_t eoa) -> herr_t { return store_of(file).eoa = eoa, 0; };
         c.get_eof = [](const H5FD_t *file, H5FD_mem_t) { return store_of(file).end; };

@@ -1,11 +1,14 @@
 #include "io/output.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <vector>
 
 #include "check.hpp"
 #include "fields.hpp"
 #ifdef GP_WITH_HDF5
+#include "io/earlier_frames.hpp"
 #include "io/frame_file.hpp"
 #endif
 
@@ -28,6 +31,7 @@ void check_options(const gp_output &o) {
                          GP_FIELD_ALL);
     require_choice("gp_output.compression", o.compression, 10);
     require_choice("gp_output.single_precision", o.single_precision, 2);
+    require_choice("gp_output.append", o.append, 2);
 }
 
 } // namespace
@@ -78,15 +82,67 @@ FrameHeader header_of(const World &world) {
 
 struct Output::Impl {
     gp_output options;
+    std::string path;           // absolute
     std::vector<uint32_t> bits; // of the components that change, in the order of the file
     std::vector<std::vector<double>> values;
     std::unique_ptr<FrameFile> file;
     int64_t next = 0; // the next frame by itself is due at next * every_seconds
+
+    void write(int64_t step, double time) {
+        std::vector<const double *> components;
+        for (const std::vector<double> &component : values)
+            components.push_back(component.data());
+        file->write(step, time, components);
+    }
+
+    // How many of the earlier frames are of the simulation as it is now.
+    static int64_t frames_to_keep(const EarlierFrames &earlier, const std::string &path, const OutputPosition *left_off,
+                                  const World &world) {
+        const std::vector<int64_t> &steps = earlier.steps();
+        const int64_t now = world.clock.step;
+        const int64_t until_now = std::upper_bound(steps.begin(), steps.end(), now) - steps.begin();
+        if (!left_off)
+            return until_now;
+        if (until_now < left_off->frames)
+            throw make_error(GP_E_IO,
+                             "%s: cannot be continued: %lld frames up to step %lld, but there were %lld when the "
+                             "simulation was saved",
+                             path.c_str(), static_cast<long long>(until_now), static_cast<long long>(now),
+                             static_cast<long long>(left_off->frames));
+        return left_off->frames;
+    }
 };
 
-Output::Output(const std::string &path, const gp_output &options, const World &world) : impl_(new Impl) {
+namespace {
+
+bool is_same_file(const std::string &a, const std::string &b) {
+    std::error_code error;
+    return a == b || std::filesystem::equivalent(a, b, error);
+}
+
+// Is the simulation where it was when the output was left off, and the file that one?
+bool is_at(const OutputPosition &left_off, const std::string &path, const World &world) {
+    return !left_off.path.empty() && left_off.step == world.clock.step && is_same_file(left_off.path, path);
+}
+
+// A step that ends within rounding of a multiple has reached it.
+double reached_time(const World &world) {
+    return world.clock.time + 1e-9 * world.clock.dt;
+}
+
+int64_t next_multiple(double time, double every) {
+    const double passed = std::floor(time / every);
+    return passed < 0x1p62 ? static_cast<int64_t>(passed) + 1 : INT64_MAX; // of a tiny one, every step passes some
+}
+
+} // namespace
+
+Output::Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off)
+    : impl_(new Impl) {
     check_options(options);
     impl_->options = options;
+    std::error_code none; // of a path that names no file: opening it says so
+    impl_->path = std::filesystem::absolute(path, none).lexically_normal().string();
     uint32_t asked = options.fields | GP_FIELD_ID | GP_FIELD_POSITION;
     if (asked & GP_FIELD_VELOCITY)
         asked |= GP_FIELD_VELOCITY;
@@ -114,32 +170,51 @@ Output::Output(const std::string &path, const gp_output &options, const World &w
     std::vector<const double *> constant_values;
     for (const std::vector<double> &values : constants)
         constant_values.push_back(values.data());
-    impl_->file = std::make_unique<FrameFile>(path, header_of(world), fields, constant_values, options.compression,
-                                              options.single_precision != 0);
-    if (options.every_seconds > 0) {
+    const FrameHeader header = header_of(world);
+    const bool single = options.single_precision != 0, append = options.append != 0;
+    const bool own_position = append && is_at(left_off, impl_->path, world);
+    if (!append && !left_off.path.empty() && is_same_file(left_off.path, impl_->path))
+        throw make_error(
+            GP_E_STATE,
+            "gp_output.append = 0: %s is the output that was open when the simulation was saved; expected 1 "
+            "to continue it, or another path",
+            path.c_str());
+    std::unique_ptr<EarlierFrames> earlier;
+    if (append)
+        earlier = std::make_unique<EarlierFrames>(path, header, fields, constant_values, single);
+    const int64_t kept = append ? impl_->frames_to_keep(*earlier, path, own_position ? &left_off : nullptr, world) : 0;
+    impl_->file =
+        std::make_unique<FrameFile>(path, header, fields, constant_values, options.compression, single, append);
+    if (append) {
+        for (int64_t frame = 0; frame < kept; ++frame) {
+            earlier->read(frame, impl_->values);
+            impl_->write(earlier->steps()[frame], earlier->times()[frame]);
+        }
+        earlier.reset();
+        impl_->file->publish();
+    } else if (options.every_seconds > 0) {
         write(world);
-        impl_->next = static_cast<int64_t>(std::floor(world.clock.time / options.every_seconds)) + 1;
     }
+    if (own_position && left_off.every_seconds == options.every_seconds)
+        impl_->next = left_off.next;
+    else if (options.every_seconds > 0)
+        impl_->next = next_multiple(reached_time(world), options.every_seconds);
 }
 
 Output::~Output() = default;
 
 void Output::write(const World &world) {
-    std::vector<const double *> components;
-    for (std::size_t k = 0; k < impl_->bits.size(); ++k) {
+    for (std::size_t k = 0; k < impl_->bits.size(); ++k)
         copy_field_by_id(world, impl_->bits[k], impl_->values[k].data());
-        components.push_back(impl_->values[k].data());
-    }
-    impl_->file->write(world.clock.step, world.clock.time, components);
+    impl_->write(world.clock.step, world.clock.time);
 }
 
 void Output::step_done(const World &world) {
     const double every = impl_->options.every_seconds;
-    // A step that ends within rounding of a multiple has reached it.
-    const double reached = world.clock.time + 1e-9 * world.clock.dt;
+    const double reached = reached_time(world);
     if (every <= 0 || reached < static_cast<double>(impl_->next) * every)
         return;
-    impl_->next = static_cast<int64_t>(std::floor(reached / every)) + 1;
+    impl_->next = next_multiple(reached, every);
     write(world);
 }
 
@@ -147,11 +222,15 @@ void Output::close() {
     impl_->file->close();
 }
 
+OutputPosition Output::position(const World &world) const {
+    return {impl_->path, impl_->options.every_seconds, impl_->next, impl_->file->frames(), world.clock.step};
+}
+
 #else
 
 struct Output::Impl {};
 
-Output::Output(const std::string &, const gp_output &options, const World &) {
+Output::Output(const std::string &, const gp_output &options, const World &, const OutputPosition &) {
     check_options(options);
     throw make_error(GP_E_UNSUPPORTED, "gp_output_open: this build has no HDF5");
 }
@@ -159,6 +238,9 @@ Output::~Output() = default;
 void Output::step_done(const World &) {}
 void Output::write(const World &) {}
 void Output::close() {}
+OutputPosition Output::position(const World &) const {
+    return {};
+}
 
 #endif
 

@@ -10,15 +10,26 @@ namespace gp::io {
 
 gp_output default_output();
 
-// Checks the options, creates the file and, with every_seconds > 0, writes the first frame. Throws gp::Error;
-// GP_E_UNSUPPORTED in a build without HDF5.
+// Where an output is: what a checkpoint keeps of it.
+struct OutputPosition {
+    std::string path; // absolute; "": none
+    double every_seconds = 0;
+    int64_t next = 0;   // the next frame by itself is due at next * every_seconds
+    int64_t frames = 0; // written
+    int64_t step = 0;   // of the simulation, then
+};
+
+// Checks the options, creates the file and, with every_seconds > 0, writes the first frame; or with append continues a file:
+// as it was at left_off, if that is of this file and of the world's step, else with the frames up to the world's step.
+// Throws gp::Error; GP_E_UNSUPPORTED in a build without HDF5.
 class Output : public FrameSink {
 public:
-    Output(const std::string &path, const gp_output &options, const World &world);
+    Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off);
     ~Output() override;
     void step_done(const World &world) override;
     void write(const World &world);
     void close();
+    OutputPosition position(const World &world) const;
 
 private:
     struct Impl;

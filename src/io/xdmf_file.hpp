@@ -1,7 +1,12 @@
-// The XDMF file beside a result file. It is valid XML after every frame, at the same cost for each: a frame overwrites
-// the closing tags and brings its own.
+// The XDMF file beside a result file. It is valid XML at every moment, also for a program that is killed while it writes.
+//
+// A kill can cut a write off where a page of the file ends. So the closing tags stay where they are, behind room for frames
+// that are to come; where that is used up the whole file is written anew, with as much room again, and renamed into its place.
+// In the room, a frame is written inside a comment whose marks are then blanked. A mark never lies across the end of a page,
+// and "-->" without a comment is harmless text inside an element.
 #pragma once
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -27,6 +32,8 @@ inline std::string xml_text(const std::string &text) {
             result += "&gt;";
         else if (c == '"')
             result += "&quot;";
+        else if (c == '-') // two of them end a comment
+            result += "&#45;";
         else
             result += c;
     }
@@ -49,13 +56,14 @@ public:
             ::close(fd_);
     }
 
-    // hdf5_name: of the HDF5 file, which is in the same directory. fd is closed by this object.
-    void start(int fd, const std::string &hdf5_name, int64_t count, bool single_precision) {
+    // fd: of the file, with the lock; it is closed by this object. hdf5_name: of the HDF5 file, in the same directory.
+    void start(int fd, const std::string &path, const std::string &hdf5_name, int64_t count, bool single_precision) {
         fd_ = fd;
+        path_ = path;
         hdf5_name_ = xml_text(hdf5_name);
         count_ = count;
         precision_ = single_precision ? 4 : 8;
-        lacking_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"2.0\">\n <Domain>\n";
+        head_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"2.0\">\n <Domain>\n";
         // As long as there is no frame: ParaView's reader crashes on an empty domain or temporal collection.
         end_ = "  <Grid Name=\"particles\" GridType=\"Collection\" CollectionType=\"Spatial\">\n  </Grid>\n" +
                domain_end();
@@ -68,8 +76,11 @@ public:
     // One frame: begin_frame, then its fields, then end_frame. path: of the array inside the HDF5 file.
     void begin_frame(int64_t frame, double time, const std::string &position_path) {
         const std::string n = std::to_string(count_);
-        if (!has_frames_)
-            lacking_ += "  <Grid Name=\"particles\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+        if (!has_frames_) {
+            head_ += "  <Grid Name=\"particles\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+            end_ = "  </Grid>\n" + domain_end();
+            body_ = room_end_ = 0; // all of it is new
+        }
         has_frames_ = true;
         lacking_ += "   <Grid Name=\"frame " + std::to_string(frame) + "\" GridType=\"" +
                     (count_ > 0 ? "Uniform" : "Collection\" CollectionType=\"Spatial") + "\">\n    <Time Value=\"" +
@@ -88,27 +99,87 @@ public:
     }
     void end_frame() { lacking_ += "   </Grid>\n"; }
 
-    // Brings the file up to date. Returns 0 or an errno; then the file is as before and the next call tries again.
+    // Brings the file up to date. Returns 0 or an errno; then the file is valid, and the next call tries again.
     int write() {
-        if (lacking_.empty())
+        if (body_ > 0 && lacking_.empty())
             return 0;
-        const std::string end = has_frames_ ? "  </Grid>\n" + domain_end() : end_, text = lacking_ + end;
-        if (write_all(fd_, text.data(), text.size(), end_at_)) {
-            end_at_ += lacking_.size();
+        // Marks may have to move to the next page.
+        const int error = body_ + lacking_.size() + 32 <= room_end_ ? fill_room() : write_anew(least_room);
+        if (error == 0)
             lacking_.clear();
-            end_ = end;
-            return 0;
-        }
-        const int error = errno;
-        if (end_at_ > 0 && write_all(fd_, end_.data(), end_.size(), end_at_) &&
-            ::ftruncate(fd_, static_cast<off_t>(end_at_ + end_.size())) != 0)
-            return errno;
         return error;
     }
 
-    int close() { return fd_ >= 0 && ::close(std::exchange(fd_, -1)) != 0 ? errno : 0; }
+    // The file is closed also when this returns an errno.
+    int close() {
+        if (fd_ < 0)
+            return 0;
+        const int error = write();
+        if (error == 0)
+            write_anew(0); // without room; if that fails, it is as good with it
+        const bool closed = ::close(std::exchange(fd_, -1)) == 0;
+        return error != 0 || closed ? error : errno;
+    }
+
+    // From now on the file has this name.
+    void renamed(const std::string &path) { path_ = path; }
 
 private:
+    static constexpr uint64_t page = 4096, least_room = 16 * page;
+
+    bool put(const std::string &text, uint64_t at) const { return write_all(fd_, text.data(), text.size(), at); }
+
+    int fill_room() {
+        const auto within_a_page = [](uint64_t at) { return at % page > page - 4 ? at + page - at % page : at; };
+        const uint64_t begin = within_a_page(body_), end = within_a_page(begin + 4 + lacking_.size());
+        if (!put("-->", end) || !put("<!--", begin) || !put(lacking_, begin + 4) || !put("    ", begin) ||
+            !put("   ", end))
+            return errno;
+        body_ = end;
+        return 0;
+    }
+
+    int write_anew(uint64_t room) {
+        std::string text(body_, '\0');
+        if (body_ == 0)
+            text = head_;
+        else if (const int error = read_back(text))
+            return error;
+        text += lacking_;
+        const uint64_t body = text.size();
+        if (room > 0 && has_frames_)
+            text.append(std::max(room, body), ' ');
+        const uint64_t room_end = text.size();
+        text += end_;
+        const std::string part = path_ + ".part";
+        const int fd = ::open(part.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (fd < 0)
+            return errno;
+        if (::flock(fd, LOCK_EX | LOCK_NB) != 0 || !write_all(fd, text.data(), text.size(), 0) ||
+            ::rename(part.c_str(), path_.c_str()) != 0) {
+            const int error = errno;
+            ::close(fd);
+            ::unlink(part.c_str());
+            return error;
+        }
+        ::close(std::exchange(fd_, fd));
+        body_ = body;
+        room_end_ = room_end;
+        return 0;
+    }
+
+    int read_back(std::string &text) const {
+        for (std::size_t done = 0; done < text.size();) {
+            const ssize_t n = ::pread(fd_, &text[done], text.size() - done, static_cast<off_t>(done));
+            if (n < 0 && errno == EINTR)
+                continue;
+            if (n <= 0)
+                return n == 0 ? EIO : errno;
+            done += static_cast<std::size_t>(n);
+        }
+        return 0;
+    }
+
     static std::string domain_end() { return " </Domain>\n</Xdmf>\n"; }
 
     std::string array(const std::string &path, int components, bool integer) const {
@@ -122,9 +193,10 @@ private:
     int64_t count_ = 0;
     int precision_ = 8;
     bool has_frames_ = false;
-    uint64_t end_at_ = 0; // where the closing tags begin
-    std::string end_;     // those that the file has now
-    std::string lacking_; // what the file lacks before them
+    std::string path_, head_, end_; // the tags before and behind the frames
+    std::string lacking_;           // the frames that the file lacks
+    uint64_t body_ = 0;             // where the next one goes; 0: nothing is right yet
+    uint64_t room_end_ = 0;         // where the closing tags begin
 };
 
 } // namespace gp::io

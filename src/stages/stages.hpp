@@ -27,6 +27,9 @@ void require_moderate_flow(const World &world);
 
 void move_plates(World &world);
 void update_neighbors(World &world);
+// Sorts the particles, and finds lists and ghosts for world.skin and the plates where they are placed. The same
+// positions in the sorted order give the same lists: world.list_origin keeps them.
+void make_lists(World &world);
 // Positions and velocities of the images across the ends of the period.
 void update_images(World &world);
 

@@ -47,18 +47,29 @@ void update_neighbors(World &world) {
         return;
     world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(shift / c.spacing), thinnest_skin, thickest_skin);
     world.shifted = 0;
+    if (c.period)
+        wrap(world);
+    for (Plate &plate : world.walls.plates)
+        plate.place(world.clock.time, world.clock.dt);
+    make_lists(world);
+}
+
+void make_lists(World &world) {
+    const Constants &c = world.constants;
     const double radius = c.reach + world.skin;
     const double close = world.scene->config().collision_distance * c.spacing + world.skin;
     const double tolerance = 1e-9 * c.spacing;
-    const Period &period = c.period;
-    if (period)
-        wrap(world);
     world.grid.sort(world.particles, cell_width * c.spacing, cell_height * c.spacing, world.threads);
-    for (Plate &plate : world.walls.plates)
-        plate.place(world.clock.time, world.clock.dt);
-    if (period) {
+    const Particles &p = world.particles;
+    ListOrigin &origin = world.list_origin;
+    origin.x.assign(p.x.begin(), p.x.begin() + p.count);
+    origin.y.assign(p.y.begin(), p.y.begin() + p.count);
+    origin.plates.clear();
+    for (const Plate &plate : world.walls.plates)
+        origin.plates.push_back(plate.segment().origin);
+    if (c.period) {
         // Ghosts up to `radius` beyond the ends extrapolate from what is within `radius` of them.
-        world.images.make(world.particles, period, 2 * radius);
+        world.images.make(world.particles, c.period, 2 * radius);
         if (!world.colliding.empty())
             world.colliding.resize(world.particles.count + world.images.count);
     }

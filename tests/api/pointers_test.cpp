@@ -150,23 +150,10 @@ TEST(Pointers, HandlesIdsAndCountsAreNullOrZeroAfterAnError) {
         EXPECT_EQ(n, 0);
     }
     gp_sim *other = sim.handle;
-    EXPECT_EQ(gp_load("nowhere", &other), GP_E_UNSUPPORTED);
+    EXPECT_EQ(gp_load("nowhere", &other), has("hdf5") ? GP_E_IO : GP_E_UNSUPPORTED);
     EXPECT_EQ(other, nullptr);
     other = sim.handle;
     EXPECT_EQ(gp_create(nullptr, &other), GP_E_ARGUMENT);
-    EXPECT_EQ(other, nullptr);
-}
-
-TEST(Pointers, CheckpointsAreOfALaterVersion) {
-    Sim sim;
-    sim.add(make_column(2, 2));
-    const std::string path = testing::TempDir() + "granperi.checkpoint";
-    EXPECT_FAILS(gp_save(sim, path.c_str()), GP_E_UNSUPPORTED, "gp_save");
-    gp_sim *other = sim.handle;
-    EXPECT_FAILS(gp_load(path.c_str(), &other), GP_E_UNSUPPORTED, "gp_load");
-    EXPECT_EQ(other, nullptr);
-    other = sim.handle;
-    EXPECT_FAILS(gp_load_file(path.c_str(), &other), GP_E_UNSUPPORTED, "gp_load");
     EXPECT_EQ(other, nullptr);
 }
 
@@ -209,7 +196,7 @@ TEST(Errors, ChangeNothing) {
                                       gp_get_interface(sim, 0, 0, 1, y, out),
                                       gp_get_plate_load(sim, 3, &load),
                                       gp_get_plan(sim, -1, nullptr, &n),
-                                      gp_save(sim, "x"),
+                                      gp_save(sim, file.c_str()),
                                       gp_output_open(sim, file.c_str(), nullptr),
                                       gp_output_write(sim),
                                       gp_output_close(sim)};

@@ -250,6 +250,11 @@ TEST(Load, IsTheWeightOfAColumnBetweenWalls) {
 
 TEST(Load, IdsAreChecked) {
     Sim sim;
+    gp_load none{};
+    none.struct_size = sizeof none;
+    EXPECT_FAILS(gp_get_plate_load(sim, 0, &none), GP_E_ARGUMENT,
+                 "plate = 0: the simulation has none yet, add it first");
+    EXPECT_FAILS(gp_get_plate_load(nullptr, 0, &none), GP_E_ARGUMENT, "gp_create");
     sim.add(make_floor());
     for (const int32_t id : {-1, 1, INT32_MAX, INT32_MIN}) {
         gp_load load{};

@@ -218,7 +218,14 @@ inline std::string contents(const std::string &path) {
 
 // "" if the XDMF file is well-formed, lists `frames` frames, and every array in it exists with the size it tells.
 inline std::string check_xdmf(const std::string &path, int64_t frames) {
-    const std::string text = contents(path), size = "Dimensions=\"";
+    const std::string size = "Dimensions=\"";
+    std::string text = contents(path);
+    for (size_t at = 0; (at = text.find("<!--", at)) != std::string::npos;) {
+        const size_t end = text.find("-->", at);
+        if (end == std::string::npos || text.find("--", at + 4) < end)
+            return "a comment without an end";
+        text.erase(at, end + 3 - at);
+    }
     const Reader r(std::filesystem::path(path).replace_extension(".h5").string());
     const std::string base = std::filesystem::path(path).stem().string() + ".h5:";
     std::vector<std::string> open;

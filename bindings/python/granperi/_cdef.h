@@ -312,6 +312,7 @@ typedef struct gp_output {
     uint32_t fields;
     int32_t compression;
     int32_t single_precision;
+    int64_t append;
 } gp_output;
 
 gp_status gp_output_init(gp_output *output, size_t size);

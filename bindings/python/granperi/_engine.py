@@ -47,7 +47,8 @@ class _Lock:
                              "thread at a time: wait until that one's step() or run() has returned")
         if engine.closed:
             engine.lock.release()
-            raise StateError(f"{self.name}: the simulation is closed")
+            raise StateError(f"{self.name}: the simulation is closed, by close() or the end of its with block: do it before, "
+                             "or make a new Simulation")
         return engine
 
     def __exit__(self, kind, error, traceback) -> None:

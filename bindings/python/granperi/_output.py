@@ -59,7 +59,7 @@ class Output:
         """Writes a frame of the present state."""
         with self._engine.locked("write") as engine:
             if self.closed:
-                raise StateError(f"write: the output {self.path} is closed")
+                raise StateError(f"write: the output {self.path} is closed: write before, or open another one")
             check(lib.gp_output_write(engine.sim))
             self._states.append(read_state(engine.sim))
 

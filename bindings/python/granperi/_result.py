@@ -233,7 +233,7 @@ class Result:
 
     def _read(self, name: str, frame: int) -> np.ndarray:
         if self._file is None:
-            raise StateError(f"{self.path} is closed")
+            raise StateError(f"{self.path} is closed: read within its with block, or open it anew")
         if not self.has(name):
             raise ArgumentError(f"{self.path} has no field '{name}': it has {', '.join(self.fields)}; write it with "
                                 "output(fields=...) or gp_output.fields")
@@ -252,7 +252,7 @@ class Result:
     def history(self) -> History:
         """The states at the frames, where Python has written the file; else only clock, fronts and peak are known."""
         if self._file is None:
-            raise StateError(f"{self.path} is closed")
+            raise StateError(f"{self.path} is closed: read within its with block, or open it anew")
         if "observables" in self._file:
             group = self._file["observables"]
             columns = {name: group[name][()] if name in ("step", "time") else group[name + "/value"][()]

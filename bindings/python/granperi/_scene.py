@@ -68,6 +68,9 @@ class Scene:
         scene = granperi.Scene.read("collapse.toml")
         with scene.build() as sim:
             sim.run(scene.run.end)
+
+    A scene file (TOML) has the sections [config], [run], [[material]], [[column]], [[particles]], [[plate]], [[floor]],
+    [[wall]] and [[gate]].
     """
 
     def __init__(self, config: Config | None = None, run: Run | None = None, name: str = "scene"):

@@ -25,7 +25,7 @@ def test_with_closes(make_block):
     sim.close()
     for call in (lambda: sim.step(), lambda: sim.run(1), lambda: sim.state, lambda: sim.x, lambda: sim.view(),
                  lambda: sim.add_column(width=1, height=1), lambda: sim.plan(), lambda: len(sim), lambda: sim.save("x")):
-        with pytest.raises(granperi.StateError, match="closed"):
+        with pytest.raises(granperi.StateError, match="closed, .*: do it before, or make a new Simulation"):
             call()
     assert "closed" in repr(sim)
 

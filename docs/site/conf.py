@@ -1,0 +1,45 @@
+"""Settings of Sphinx. Nothing is taken from the network: neither fonts nor scripts."""
+import re
+
+import granperi
+
+project = "granperi"
+copyright = "the granperi contributors"
+version = release = granperi.__version__
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+source_suffix = {".rst": "restructuredtext", ".md": "markdown"}
+exclude_patterns = []
+myst_heading_anchors = 3
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_preserve_defaults = True
+add_module_names = False
+python_use_unqualified_type_names = True
+nitpick_ignore_regex = [("c:identifier", r"u?int(32|64)_t|size_t"),  # what other documents describe
+                        ("py:class", r"(numpy|np|os|matplotlib)\..*|Engine|granperi\._.*")]
+html_theme = "furo"
+html_title = "granperi " + release
+html_show_sourcelink = False
+html_copy_source = False
+html_static_path = []
+highlight_language = "none"
+pygments_style = "default"
+html_theme_options = {"navigation_with_keys": True}
+
+
+def plain(app, what, name, thing, options, lines):
+    """Docstrings are plain text: marks of reStructuredText are taken literally, indented lines are code."""
+    out, code = [], False
+    for line in lines:
+        if line.startswith("    ") and not code and (not out or not out[-1]):
+            out += ["::", ""]
+            code = True
+        elif line and not line.startswith(" "):
+            code = False
+        out.append(line if code else re.sub(r"([\\*`|_])", r"\\\1", line))
+    lines[:] = out
+
+
+def setup(app):
+    app.add_object_type("fortran", "fortran", "pair: %s; Fortran", objname="Fortran")
+    app.connect("autodoc-process-docstring", plain)

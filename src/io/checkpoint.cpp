@@ -1,0 +1,483 @@
+#include "io/checkpoint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check.hpp"
+#ifdef GP_WITH_HDF5
+#include "io/checkpoint_parts.hpp"
+#include "io/safe_file.hpp"
+#include "stages/stages.hpp"
+#endif
+
+namespace gp::io {
+
+#ifndef GP_WITH_HDF5
+
+void save_checkpoint(const std::string &, const Sim &, const OutputPosition &) {
+    throw make_error(GP_E_UNSUPPORTED, "gp_save: this build has no HDF5");
+}
+
+void load_checkpoint(const std::string &, const std::function<Sim &(const gp_config &)> &, OutputPosition &) {
+    throw make_error(GP_E_UNSUPPORTED, "gp_load: this build has no HDF5");
+}
+
+#else
+
+namespace {
+
+// ------------------------------------------------------------------------------------------------------- saving
+
+void write_scene(CheckpointWriter &file, const Scene &scene) {
+    exchange_config(file, scene.config());
+    MaterialTable materials;
+    for (const gp_material &m : scene.materials()) {
+        materials.grain_density.push_back(m.grain_density);
+        materials.volume_fraction.push_back(m.volume_fraction);
+        materials.grain_diameter.push_back(m.grain_diameter);
+        materials.mu_s.push_back(m.mu_s);
+        materials.mu_2.push_back(m.mu_2);
+        materials.i0.push_back(m.i0);
+    }
+    exchange_materials(file, materials);
+
+    BodyTable bodies;
+    for (const Body &b : scene.bodies()) {
+        bodies.material.push_back(b.material);
+        bodies.is_column.push_back(b.rectangle);
+        bodies.initial_pressure.push_back(b.hydrostatic ? GP_INITIAL_HYDROSTATIC : GP_INITIAL_NONE);
+        bodies.count.push_back(b.count);
+        bodies.x_min.push_back(b.x_min);
+        bodies.y_min.push_back(b.y_min);
+        bodies.width.push_back(b.width);
+        bodies.height.push_back(b.height);
+        bodies.column_vx.push_back(b.rectangle ? scene.vx[b.first] : 0.0);
+        bodies.column_vy.push_back(b.rectangle ? scene.vy[b.first] : 0.0);
+        if (b.rectangle)
+            continue;
+        const auto append = [&](std::vector<double> &to, const std::vector<double> &from) {
+            to.insert(to.end(), from.begin() + b.first, from.begin() + b.first + b.count);
+        };
+        append(bodies.x, scene.x);
+        append(bodies.y, scene.y);
+        append(bodies.vx, scene.vx);
+        append(bodies.vy, scene.vy);
+    }
+    exchange_bodies(file, bodies);
+
+    PlateTable plates;
+    for (const PlateSpec &p : scene.plates()) {
+        plates.x0.push_back(p.segment.origin.x());
+        plates.y0.push_back(p.segment.origin.y());
+        plates.x1.push_back(p.end.x());
+        plates.y1.push_back(p.end.y());
+        plates.friction.push_back(p.friction);
+        plates.wall_mu.push_back(p.wall_mu);
+        plates.vx.push_back(p.velocity.x());
+        plates.vy.push_back(p.velocity.y());
+        plates.start_x.push_back(p.start.x());
+        plates.start_y.push_back(p.start.y());
+        plates.normal_pressure.push_back(p.load);
+        plates.mass_per_length.push_back(p.mass);
+        plates.n_knots.push_back(static_cast<int64_t>(p.table.t.size()));
+        plates.knot_t.insert(plates.knot_t.end(), p.table.t.begin(), p.table.t.end());
+        plates.knot_x.insert(plates.knot_x.end(), p.table.x.begin(), p.table.x.end());
+        plates.knot_y.insert(plates.knot_y.end(), p.table.y.begin(), p.table.y.end());
+    }
+    exchange_plates(file, plates);
+}
+
+void write_world(CheckpointWriter &file, const World &world) {
+    exchange_clock_and_sums(file, world);
+    ListTable lists{world.lists_valid, world.skin, world.shifted, {}, {}};
+    for (const Vector &origin : world.list_origin.plates) {
+        lists.plate_x.push_back(origin.x());
+        lists.plate_y.push_back(origin.y());
+    }
+    exchange_lists(file, lists, world);
+    exchange_particles(file, world.particles, world.listed);
+
+    PlateMotionTable t;
+    for (const Plate &plate : world.walls.plates) {
+        const Plate::Motion m = plate.motion();
+        t.driven.push_back(m.driven);
+        t.driven_since.push_back(m.driven_since);
+        t.driven_from_x.push_back(m.driven_from.x());
+        t.driven_from_y.push_back(m.driven_from.y());
+        t.driven_vx.push_back(m.driven_velocity.x());
+        t.driven_vy.push_back(m.driven_velocity.y());
+        t.fallen.push_back(m.fallen);
+        t.fall_speed.push_back(m.fall_speed);
+        t.wrapped.push_back(m.wrapped);
+        t.x.push_back(m.origin.x());
+        t.y.push_back(m.origin.y());
+        t.vx.push_back(m.velocity.x());
+        t.vy.push_back(m.velocity.y());
+        t.fx.push_back(plate.force.x());
+        t.fy.push_back(plate.force.y());
+        t.torque.push_back(plate.torque);
+        t.impulse_x.push_back(plate.impulse.x());
+        t.impulse_y.push_back(plate.impulse.y());
+        t.gap.push_back(plate.gap);
+    }
+    exchange_motions(file, t);
+    exchange_ghosts(file, world.walls);
+    PieceTable pieces;
+    for (const Piece &piece : world.pieces) {
+        pieces.end.push_back(piece.end);
+        pieces.depth.push_back(piece.depth);
+    }
+    exchange_pieces(file, pieces);
+}
+
+// ------------------------------------------------------------------------------------------------------ loading
+
+// Steps and the like that no run comes to, and that can still be counted on from.
+constexpr int64_t most_counted = int64_t{1} << 62;
+
+// Checks of what the host's own checks do not see: that tables fit together and indices stay within.
+class Checker {
+public:
+    explicit Checker(const CheckpointReader &file) : file_(file) {}
+
+    void require(bool good, const std::string &what) const {
+        if (!good)
+            file_.refuse(what);
+    }
+    template <class Array> void same_size(const char *what, const Array &array, std::size_t size) const {
+        require(array.size() == size, format_text("%s: %zu values, expected %zu", what, array.size(), size));
+    }
+    template <class Array> void all_finite(const char *what, const Array &array) const {
+        for (const double value : array)
+            require(std::isfinite(value), format_text("%s: %g, expected a finite number", what, value));
+    }
+    void finite(const char *what, double value) const {
+        require(std::isfinite(value), format_text("%s: %g, expected a finite number", what, value));
+    }
+    void not_negative(const char *what, double value) const {
+        require(std::isfinite(value) && value >= 0, format_text("%s: %g, expected a number >= 0", what, value));
+    }
+    template <class Array> void permutation(const char *what, const Array &array) const {
+        std::vector<bool> seen(array.size());
+        for (const auto value : array) {
+            const bool good = value >= 0 && static_cast<std::size_t>(value) < array.size() && !seen[value];
+            require(good, format_text("%s: %lld, expected each place once", what, static_cast<long long>(value)));
+            seen[value] = true;
+        }
+    }
+
+private:
+    const CheckpointReader &file_;
+};
+
+void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
+    MaterialTable t;
+    exchange_materials(file, t);
+    const std::size_t n = t.grain_density.size();
+    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0})
+        check.same_size("materials", *array, n);
+    check.require(n > 0, "no material 0");
+    for (std::size_t k = 1; k < n; ++k) { // the first one is there
+        gp_material m = default_material();
+        m.grain_density = t.grain_density[k];
+        m.volume_fraction = t.volume_fraction[k];
+        m.grain_diameter = t.grain_diameter[k];
+        m.mu_s = t.mu_s[k];
+        m.mu_2 = t.mu_2[k];
+        m.i0 = t.i0[k];
+        sim.add_material(m);
+    }
+}
+
+void read_bodies(CheckpointReader &file, const Checker &check, Sim &sim) {
+    BodyTable t;
+    exchange_bodies(file, t);
+    const std::size_t n = t.material.size(), particles = t.x.size();
+    check.same_size("bodies", t.is_column, n);
+    check.same_size("bodies", t.initial_pressure, n);
+    check.same_size("bodies", t.count, n);
+    for (const auto *array : {&t.x_min, &t.y_min, &t.width, &t.height, &t.column_vx, &t.column_vy})
+        check.same_size("bodies", *array, n);
+    for (const auto *array : {&t.y, &t.vx, &t.vy})
+        check.same_size("particles of bodies", *array, particles);
+    const double spacing = sim.scene().config().spacing;
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        const double count = static_cast<double>(t.count[k]);
+        if (t.is_column[k]) {
+            check.require(std::round(t.width[k] / spacing) * std::round(t.height[k] / spacing) == count,
+                          format_text("column %zu is not of %g particles", k, count));
+            gp_column c = default_column();
+            c.x_min = t.x_min[k];
+            c.y_min = t.y_min[k];
+            c.width = t.width[k];
+            c.height = t.height[k];
+            c.material = t.material[k];
+            c.vx = t.column_vx[k];
+            c.vy = t.column_vy[k];
+            c.initial_pressure = t.initial_pressure[k];
+            sim.add_column(c);
+        } else {
+            check.require(count > 0 && count <= static_cast<double>(particles - first),
+                          format_text("set %zu of particles has %g of %zu", k, count, particles - first));
+            sim.add_particles(t.material[k], t.count[k], &t.x[first], &t.y[first], &t.vx[first], &t.vy[first]);
+            first += static_cast<std::size_t>(t.count[k]);
+        }
+    }
+    check.require(first == particles,
+                  format_text("%zu of %zu particles belong to no body", particles - first, particles));
+}
+
+void read_plates(CheckpointReader &file, const Checker &check, Sim &sim) {
+    PlateTable t;
+    exchange_plates(file, t);
+    const std::size_t n = t.x0.size(), knots = t.knot_t.size();
+    for (const auto *array : {&t.y0, &t.x1, &t.y1, &t.wall_mu, &t.vx, &t.vy, &t.start_x, &t.start_y, &t.normal_pressure,
+                              &t.mass_per_length})
+        check.same_size("plates", *array, n);
+    check.same_size("plates", t.friction, n);
+    check.same_size("plates", t.n_knots, n);
+    check.same_size("knots", t.knot_x, knots);
+    check.same_size("knots", t.knot_y, knots);
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        check.require(
+            t.n_knots[k] >= 0 && static_cast<uint64_t>(t.n_knots[k]) <= knots - first,
+            format_text("plate %zu has %lld knots of %zu", k, static_cast<long long>(t.n_knots[k]), knots - first));
+        gp_plate p = default_plate();
+        p.x0 = t.x0[k];
+        p.y0 = t.y0[k];
+        p.x1 = t.x1[k];
+        p.y1 = t.y1[k];
+        p.friction = t.friction[k];
+        p.wall_mu = t.wall_mu[k];
+        p.vx = t.vx[k];
+        p.vy = t.vy[k];
+        p.n_knots = t.n_knots[k];
+        p.knot_t = t.knot_t.data() + first;
+        p.knot_x = t.knot_x.data() + first;
+        p.knot_y = t.knot_y.data() + first;
+        p.normal_pressure = t.normal_pressure[k];
+        p.mass_per_length = t.mass_per_length[k];
+        sim.add_plate(p);
+        sim.set_plate_start(static_cast<int32_t>(k), {t.start_x[k], t.start_y[k]});
+        first += static_cast<std::size_t>(t.n_knots[k]);
+    }
+    check.require(first == knots, "knots that belong to no plate");
+}
+
+void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w) {
+    exchange_clock_and_sums(file, w);
+    const Clock &c = w.clock;
+    check.finite("time", c.time);
+    check.not_negative("dt", c.dt);
+    check.not_negative("time_left", c.time_left);
+    check.require(c.reason >= GP_DT_NONE && c.reason <= GP_DT_RETRY, "no such reason of a time step");
+    const Ledger &l = w.ledger;
+    for (const double value : {l.initial, l.reference_height, l.dissipated, l.penalty, l.walls, l.diffusion, l.bulk,
+                               l.collisions, l.side_walls, l.plate_work, l.largest_kinetic, l.wound})
+        check.finite("ledger", value);
+    for (const int64_t number : {c.step, w.collisions, w.retries, w.viscous.newton, w.viscous.linear,
+                                 w.viscous.failures, static_cast<int64_t>(w.viscous.last)})
+        check.require(number >= 0 && number < most_counted, "a count out of bounds");
+    for (const double value : {w.max_compression, w.plastic_power, w.unbalanced_share})
+        check.finite("sums", value);
+    check.not_negative("velocity_span", w.velocity_span);
+    check.not_negative("fastest", w.fastest);
+}
+
+// The lists as they were made, from the positions and plates of then. Afterwards particles and plates are to be set.
+ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
+    ListTable t;
+    ListOrigin &origin = w.list_origin;
+    exchange_lists(file, t, w);
+    const double spacing = w.constants.spacing;
+    const std::size_t n = static_cast<std::size_t>(w.particles.count), plates = w.walls.plates.size();
+    check.require(t.skin > 0 && t.skin <= spacing, format_text("skin: %g m", t.skin));
+    check.not_negative("shifted", t.shifted);
+    check.same_size("lists/x", origin.x, n);
+    check.same_size("lists/y", origin.y, n);
+    check.same_size("lists/plate_x", t.plate_x, plates);
+    check.same_size("lists/plate_y", t.plate_y, plates);
+    const double farthest = 1e15 * spacing; // beyond, lattice points behind a plate cannot be counted
+    for (const auto *array : {&t.plate_x, &t.plate_y})
+        for (const double value : *array)
+            check.require(std::abs(value) <= farthest, format_text("lists: a plate at %g m", value));
+    for (const auto *array : {&origin.x, &origin.y})
+        for (const double value : *array)
+            check.require(std::abs(value) <= farthest, format_text("lists: a particle at %g m", value));
+    if (const Period &period = w.constants.period)
+        for (const double x : origin.x)
+            check.require(std::abs(x - period.x_min - 0.5 * period.length) <= (0.5 + 1e-9) * period.length,
+                          format_text("lists: a particle at x = %g m, beyond the period", x));
+    for (std::size_t k = 0; k < plates; ++k) {
+        Plate::Motion motion;
+        motion.origin = {t.plate_x[k], t.plate_y[k]};
+        w.walls.plates[k].set_motion(motion);
+    }
+    std::copy(origin.x.begin(), origin.x.end(), w.particles.x.begin());
+    std::copy(origin.y.begin(), origin.y.end(), w.particles.y.begin());
+    w.skin = t.skin;
+    stages::make_lists(w);
+    for (std::size_t k = 0; k < n; ++k)
+        check.require(w.grid.order()[k] == static_cast<int32_t>(k), "lists: the particles are not in their order");
+    return t;
+}
+
+void read_particles(CheckpointReader &file, const Checker &check, const Scene &scene, World &w) {
+    Particles &p = w.particles;
+    const std::size_t n = static_cast<std::size_t>(p.count), all = static_cast<std::size_t>(p.count + w.images.count);
+    const bool trace = !p.syy.empty();
+    exchange_particles(file, p, w.listed);
+    if (!w.listed.empty()) {
+        check.same_size("listed", w.listed, n);
+        check.permutation("listed", w.listed);
+    }
+    check.same_size("id", p.id, n);
+    check.permutation("id", p.id);
+    check.same_size("column", p.column, all);
+    for (std::size_t k = 0; k < all; ++k)
+        check.require(p.column[k] == scene.column[p.id[w.images.source(static_cast<int64_t>(k))]],
+                      "a particle is of another column");
+    for (const auto *field : {&p.x, &p.y, &p.vx, &p.vy, &p.density, &p.pressure, &p.sxx, &p.sxy}) {
+        check.same_size("particles", *field, all);
+        check.all_finite("particles", *field);
+    }
+    for (std::size_t k = 0; k < all; ++k) {
+        const double own = w.material_of(static_cast<int64_t>(k)).density;
+        check.require(stages::is_bounded_density(p.density[k] / own),
+                      format_text("a density of %g kg/m3", p.density[k]));
+        check.require(p.pressure[k] >= 0, format_text("a pressure of %g Pa", p.pressure[k]));
+    }
+    check.same_size("syy", p.syy, trace ? all : 0);
+    check.all_finite("syy", p.syy);
+    for (auto *field : {&p.lxx, &p.lxy, &p.lyx, &p.lyy})
+        check.same_size("velocity gradient", *field, all);
+}
+
+void read_motions(CheckpointReader &file, const Checker &check, World &w) {
+    PlateMotionTable t;
+    exchange_motions(file, t);
+    const std::size_t n = w.walls.plates.size();
+    check.same_size("plate_motions", t.driven, n);
+    for (const auto *array :
+         {&t.driven_since, &t.driven_from_x, &t.driven_from_y, &t.driven_vx, &t.driven_vy, &t.fallen, &t.fall_speed,
+          &t.wrapped, &t.x, &t.y, &t.vx, &t.vy, &t.fx, &t.fy, &t.torque, &t.impulse_x, &t.impulse_y}) {
+        check.same_size("plate_motions", *array, n);
+        check.all_finite("plate_motions", *array);
+    }
+    check.same_size("plate_motions", t.gap, n);
+    for (std::size_t k = 0; k < n; ++k) {
+        check.require(!std::isnan(t.gap[k]), "gap: not a number");
+        Plate &plate = w.walls.plates[k];
+        plate.set_motion({t.driven[k] != 0,
+                          t.driven_since[k],
+                          {t.driven_from_x[k], t.driven_from_y[k]},
+                          {t.driven_vx[k], t.driven_vy[k]},
+                          t.fallen[k],
+                          t.fall_speed[k],
+                          t.wrapped[k],
+                          {t.x[k], t.y[k]},
+                          {t.vx[k], t.vy[k]}});
+        plate.force = {t.fx[k], t.fy[k]};
+        plate.torque = t.torque[k];
+        plate.impulse = {t.impulse_x[k], t.impulse_y[k]};
+        plate.gap = t.gap[k];
+    }
+}
+
+void read_pieces(CheckpointReader &file, const Checker &check, World &w) {
+    PieceTable t;
+    exchange_pieces(file, t);
+    check.same_size("pieces", t.depth, t.end.size());
+    check.all_finite("pieces", t.end);
+    const int32_t most = w.scene->config().retry_halvings;
+    for (std::size_t k = 0; k < t.end.size(); ++k) {
+        check.require(t.depth[k] >= 1 && t.depth[k] <= most, "a piece of a step halved too often");
+        w.pieces.push_back({t.end[k], t.depth[k]});
+    }
+}
+
+std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, const Scene &scene) {
+    std::unique_ptr<World> world = make_world(scene);
+    read_clock_and_sums(file, check, *world);
+    const ListTable lists = read_lists(file, check, *world);
+    read_particles(file, check, scene, *world);
+    read_motions(file, check, *world);
+    exchange_ghosts(file, world->walls);
+    for (const auto *field : {&world->walls.ghost_x, &world->walls.ghost_y}) {
+        check.same_size("ghosts", *field, static_cast<std::size_t>(world->walls.ghost_count));
+        check.all_finite("ghosts", *field);
+    }
+    read_pieces(file, check, *world);
+    world->lists_valid = lists.valid;
+    world->lists_new = false;
+    world->shifted = lists.shifted;
+    return world;
+}
+
+OutputPosition read_position(CheckpointReader &file, const Checker &check) {
+    PositionTable t;
+    exchange_position(file, t);
+    check.not_negative("output/every_seconds", t.at.every_seconds);
+    for (const int64_t number : {t.at.next, t.at.frames, t.at.step})
+        check.require(number >= 0, "output: a count below 0");
+    check.require(t.path.size() < 1 << 16, "output: a path of more than 65535 bytes");
+    t.at.path.assign(t.path.begin(), t.path.end());
+    return t.at;
+}
+
+void read_all(CheckpointReader &file, const std::function<Sim &(const gp_config &)> &create, OutputPosition &position) {
+    const Checker check(file);
+    gp_config config = default_config(GP_PRESET_DEFAULT);
+    exchange_config(file, config);
+    Sim &sim = create(config);
+    read_materials(file, check, sim);
+    read_bodies(file, check, sim);
+    read_plates(file, check, sim);
+    Progress progress;
+    exchange_progress(file, progress);
+    check.require((progress.told & ~Warnings::all_kinds) == 0, "warnings of an unknown kind");
+    check.not_negative("wall_seconds", progress.wall_seconds);
+    position = read_position(file, check);
+    sim.resume(progress.started ? read_world(file, check, sim.scene()) : nullptr, progress);
+}
+
+} // namespace
+
+void save_checkpoint(const std::string &path, const Sim &sim, const OutputPosition &position) {
+    std::vector<unsigned char> bytes;
+    const std::string target = replaceable_path(path); // before the work
+    {
+        Session session;
+        CheckpointWriter file(path);
+        const Progress progress = sim.progress();
+        write_scene(file, sim.scene());
+        exchange_progress(file, progress);
+        const PositionTable at{position, {position.path.begin(), position.path.end()}};
+        exchange_position(file, at);
+        if (progress.started)
+            write_world(file, sim.world());
+        bytes = file.bytes();
+    }
+    replace_file(target, bytes.data(), bytes.size());
+}
+
+void load_checkpoint(const std::string &path, const std::function<Sim &(const gp_config &)> &create,
+                     OutputPosition &position) {
+    std::vector<unsigned char> bytes = read_file(path);
+    Session session;
+    CheckpointReader file(path, std::move(bytes));
+    try {
+        read_all(file, create, position);
+    } catch (const Error &error) {
+        // What a host would be told about an argument is here about the file.
+        if (error.status() == GP_E_ARGUMENT || error.status() == GP_E_STATE || error.status() == GP_E_DIVERGED)
+            file.refuse(error.what());
+        throw;
+    }
+}
+
+#endif
+
+} // namespace gp::io

@@ -1,0 +1,268 @@
+// What a checkpoint consists of, each part described once for writing and reading. Only checkpoint.cpp includes this.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/checkpoint_file.hpp"
+#include "io/output.hpp"
+#include "sim.hpp"
+
+namespace gp::io {
+
+// A config that grows does not compile here: it needs the new names, and the checkpoint a new format.
+template <class File, class Config> void exchange_config(File &file, Config &config) {
+    auto &[struct_size, spacing, gravity_x, gravity_y, sound_speed, cfl, time_step, interaction_radius, horizon,
+           horizon_length, nonlocal, stress, density, friction_factor, delta, collision_distance, zero_energy_penalty,
+           density_diffusion, channel_width, channel_friction, periodic_x_min, periodic_x_max, threads, seed, jitter,
+           preset, bulk_viscosity, implicit_tolerance, implicit_iterations, allow_unstable_step, retry_halvings] =
+        config;
+    (void)struct_size;
+    file.group("/config");
+    file.value("spacing", spacing);
+    file.value("gravity_x", gravity_x);
+    file.value("gravity_y", gravity_y);
+    file.value("sound_speed", sound_speed);
+    file.value("cfl", cfl);
+    file.value("time_step", time_step);
+    file.value("interaction_radius", interaction_radius);
+    file.value("horizon", horizon);
+    file.value("horizon_length", horizon_length);
+    file.value("nonlocal", nonlocal);
+    file.value("stress", stress);
+    file.value("density", density);
+    file.value("friction_factor", friction_factor);
+    file.value("delta", delta);
+    file.value("collision_distance", collision_distance);
+    file.value("zero_energy_penalty", zero_energy_penalty);
+    file.value("density_diffusion", density_diffusion);
+    file.value("channel_width", channel_width);
+    file.value("channel_friction", channel_friction);
+    file.value("periodic_x_min", periodic_x_min);
+    file.value("periodic_x_max", periodic_x_max);
+    file.value("threads", threads);
+    file.value("seed", seed);
+    file.value("jitter", jitter);
+    file.value("preset", preset);
+    file.value("bulk_viscosity", bulk_viscosity);
+    file.value("implicit_tolerance", implicit_tolerance);
+    file.value("implicit_iterations", implicit_iterations);
+    file.value("allow_unstable_step", allow_unstable_step);
+    file.value("retry_halvings", retry_halvings);
+}
+
+struct MaterialTable {
+    std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0;
+};
+
+template <class File, class Table> void exchange_materials(File &file, Table &t) {
+    file.group("/materials");
+    file.array("grain_density", t.grain_density);
+    file.array("volume_fraction", t.volume_fraction);
+    file.array("grain_diameter", t.grain_diameter);
+    file.array("mu_s", t.mu_s);
+    file.array("mu_2", t.mu_2);
+    file.array("i0", t.i0);
+}
+
+// Columns as they were added, and sets of particles with their initial positions and velocities one after the other.
+struct BodyTable {
+    std::vector<int32_t> material, is_column, initial_pressure;
+    std::vector<int64_t> count;
+    std::vector<double> x_min, y_min, width, height, column_vx, column_vy;
+    std::vector<double> x, y, vx, vy;
+};
+
+template <class File, class Table> void exchange_bodies(File &file, Table &t) {
+    file.group("/bodies");
+    file.array("material", t.material);
+    file.array("is_column", t.is_column);
+    file.array("initial_pressure", t.initial_pressure);
+    file.array("count", t.count);
+    file.array("x_min", t.x_min);
+    file.array("y_min", t.y_min);
+    file.array("width", t.width);
+    file.array("height", t.height);
+    file.array("column_vx", t.column_vx);
+    file.array("column_vy", t.column_vy);
+    file.array("particle_x", t.x);
+    file.array("particle_y", t.y);
+    file.array("particle_vx", t.vx);
+    file.array("particle_vy", t.vy);
+}
+
+// Plates as they were added or, driven before the first step, have become since. Knots one plate after the other.
+struct PlateTable {
+    std::vector<double> x0, y0, x1, y1, wall_mu, vx, vy, start_x, start_y, normal_pressure, mass_per_length;
+    std::vector<int32_t> friction;
+    std::vector<int64_t> n_knots;
+    std::vector<double> knot_t, knot_x, knot_y;
+};
+
+template <class File, class Table> void exchange_plates(File &file, Table &t) {
+    file.group("/plates");
+    file.array("x0", t.x0);
+    file.array("y0", t.y0);
+    file.array("x1", t.x1);
+    file.array("y1", t.y1);
+    file.array("friction", t.friction);
+    file.array("wall_mu", t.wall_mu);
+    file.array("vx", t.vx);
+    file.array("vy", t.vy);
+    file.array("start_x", t.start_x);
+    file.array("start_y", t.start_y);
+    file.array("normal_pressure", t.normal_pressure);
+    file.array("mass_per_length", t.mass_per_length);
+    file.array("n_knots", t.n_knots);
+    file.array("knot_t", t.knot_t);
+    file.array("knot_x", t.knot_x);
+    file.array("knot_y", t.knot_y);
+}
+
+template <class File, class State> void exchange_progress(File &file, State &progress) {
+    file.group("/progress");
+    file.value("started", progress.started);
+    file.value("diverged", progress.diverged);
+    file.value("warnings_told", progress.told);
+    file.value("epoch", progress.epoch);
+    file.value("wall_seconds", progress.wall_seconds);
+}
+
+struct PositionTable {
+    OutputPosition at;
+    std::vector<uint8_t> path;
+};
+
+template <class File, class Table> void exchange_position(File &file, Table &t) {
+    file.group("/output");
+    file.array("path", t.path);
+    file.value("every_seconds", t.at.every_seconds);
+    file.value("next", t.at.next);
+    file.value("frames", t.at.frames);
+    file.value("step", t.at.step);
+}
+
+// ------------------------------------------------------------------------------- of a simulation that has begun
+
+template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
+    file.group("/clock");
+    file.value("time", w.clock.time);
+    file.value("step", w.clock.step);
+    file.value("dt", w.clock.dt);
+    file.value("time_left", w.clock.time_left);
+    file.value("reason", w.clock.reason);
+    file.group("/ledger");
+    file.value("initial", w.ledger.initial);
+    file.value("reference_height", w.ledger.reference_height);
+    file.value("dissipated", w.ledger.dissipated);
+    file.value("penalty", w.ledger.penalty);
+    file.value("walls", w.ledger.walls);
+    file.value("diffusion", w.ledger.diffusion);
+    file.value("bulk", w.ledger.bulk);
+    file.value("collisions", w.ledger.collisions);
+    file.value("side_walls", w.ledger.side_walls);
+    file.value("plate_work", w.ledger.plate_work);
+    file.value("largest_kinetic", w.ledger.largest_kinetic);
+    file.value("wound", w.ledger.wound);
+    file.group("/so_far");
+    file.value("collisions", w.collisions);
+    file.value("max_compression", w.max_compression);
+    file.value("retries", w.retries);
+    file.value("plastic_power", w.plastic_power);
+    file.value("unbalanced_share", w.unbalanced_share);
+    file.value("velocity_span", w.velocity_span);
+    file.value("fastest", w.fastest);
+    file.value("implicit_newton", w.viscous.newton);
+    file.value("implicit_linear", w.viscous.linear);
+    file.value("implicit_failures", w.viscous.failures);
+    file.value("implicit_last", w.viscous.last);
+    file.value("implicit_residual", w.viscous.last_residual);
+}
+
+// The lists themselves are made anew from where the particles and plates were when they were made.
+struct ListTable {
+    bool valid = false;
+    double skin = 0, shifted = 0;
+    std::vector<double> plate_x, plate_y;
+};
+
+template <class File, class Table, class W> void exchange_lists(File &file, Table &t, W &w) {
+    file.group("/lists");
+    file.value("valid", t.valid);
+    file.value("skin", t.skin);
+    file.value("shifted", t.shifted);
+    file.array("x", w.list_origin.x);
+    file.array("y", w.list_origin.y);
+    file.array("plate_x", t.plate_x);
+    file.array("plate_y", t.plate_y);
+}
+
+// In the engine's own order, with the images across the ends of a period.
+template <class File, class P, class Listed> void exchange_particles(File &file, P &p, Listed &listed) {
+    file.group("/particles");
+    file.array("listed", listed);
+    file.array("id", p.id);
+    file.array("column", p.column);
+    file.array("x", p.x);
+    file.array("y", p.y);
+    file.array("vx", p.vx);
+    file.array("vy", p.vy);
+    file.array("density", p.density);
+    file.array("pressure", p.pressure);
+    file.array("sxx", p.sxx);
+    file.array("sxy", p.sxy);
+    file.array("syy", p.syy);
+    file.array("lxx", p.lxx);
+    file.array("lxy", p.lxy);
+    file.array("lyx", p.lyx);
+    file.array("lyy", p.lyy);
+}
+
+struct PlateMotionTable {
+    std::vector<int32_t> driven;
+    std::vector<double> driven_since, driven_from_x, driven_from_y, driven_vx, driven_vy, fallen, fall_speed, wrapped;
+    std::vector<double> x, y, vx, vy, fx, fy, torque, impulse_x, impulse_y, gap;
+};
+
+template <class File, class Table> void exchange_motions(File &file, Table &t) {
+    file.group("/plate_motions");
+    file.array("driven", t.driven);
+    file.array("driven_since", t.driven_since);
+    file.array("driven_from_x", t.driven_from_x);
+    file.array("driven_from_y", t.driven_from_y);
+    file.array("driven_vx", t.driven_vx);
+    file.array("driven_vy", t.driven_vy);
+    file.array("fallen", t.fallen);
+    file.array("fall_speed", t.fall_speed);
+    file.array("wrapped", t.wrapped);
+    file.array("x", t.x);
+    file.array("y", t.y);
+    file.array("vx", t.vx);
+    file.array("vy", t.vy);
+    file.array("fx", t.fx);
+    file.array("fy", t.fy);
+    file.array("torque", t.torque);
+    file.array("impulse_x", t.impulse_x);
+    file.array("impulse_y", t.impulse_y);
+    file.array("gap", t.gap);
+}
+
+// Where the ghosts are now; which there are follows from the lists.
+template <class File, class W> void exchange_ghosts(File &file, W &walls) {
+    file.group("/ghosts");
+    file.array("x", walls.ghost_x);
+    file.array("y", walls.ghost_y);
+}
+
+struct PieceTable {
+    std::vector<double> end;
+    std::vector<int32_t> depth;
+};
+
+template <class File, class Table> void exchange_pieces(File &file, Table &t) {
+    file.group("/pieces");
+    file.array("end", t.end);
+    file.array("depth", t.depth);
+}
+
+} // namespace gp::io

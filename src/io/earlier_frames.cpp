@@ -1,0 +1,154 @@
+#include "io/earlier_frames.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "io/hdf5_writer.hpp"
+#include "io/safe_file.hpp"
+
+namespace gp::io {
+
+struct EarlierFrames::Impl : Hdf5Writer {
+    struct Element {
+        std::string name;
+        int components;
+        Id value;
+    };
+    int64_t count = 0;
+    std::vector<Element> elements; // those that change
+    mutable std::vector<double> packed;
+
+    [[noreturn]] void refuse(const std::string &why) const {
+        throw make_error(GP_E_IO, "%s: cannot be continued: %s", path.c_str(), why.c_str());
+    }
+
+    Id open(const std::string &name) const { return own(H5Dopen2(file, name.c_str(), H5P_DEFAULT), "read " + name); }
+
+    std::vector<hsize_t> extent_of(hid_t dataset, const std::string &name) const {
+        const Id extent = own(H5Dget_space(dataset), "read " + name);
+        std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(extent))));
+        check(H5Sget_simple_extent_dims(extent, shape.data(), nullptr), "read " + name);
+        return shape;
+    }
+
+    // A dataset of one dimension.
+    template <class T> std::vector<T> read_row(const std::string &name, hid_t native) const {
+        const Id dataset = open(name);
+        const std::vector<hsize_t> shape = extent_of(dataset, name);
+        if (shape.size() != 1 || shape[0] > (hsize_t{1} << 40))
+            refuse(name + " has another shape");
+        std::vector<T> values(shape[0]);
+        if (!values.empty())
+            check(H5Dread(dataset, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read " + name);
+        return values;
+    }
+
+    void check_parameters(const FrameHeader &header) const {
+        const std::string what = "read /parameters";
+        double spacing = 0;
+        int64_t particles = 0;
+        const Id parameters = own(H5Gopen2(file, "/parameters", H5P_DEFAULT), what);
+        const Id n = own(H5Aopen(parameters, "particles", H5P_DEFAULT), what);
+        const Id dl = own(H5Aopen(parameters, "spacing", H5P_DEFAULT), what);
+        check(H5Aread(n, H5T_NATIVE_INT64, &particles), what);
+        check(H5Aread(dl, H5T_NATIVE_DOUBLE, &spacing), what);
+        if (particles != header.count || spacing != header.spacing)
+            refuse(format_text("it has %lld particles and spacing %g, the simulation %lld and %g",
+                               static_cast<long long>(particles), spacing, static_cast<long long>(header.count),
+                               header.spacing));
+    }
+
+    void open_fields(const std::vector<FrameField> &fields, const std::vector<const double *> &constant_values,
+                     bool single, std::size_t frames) {
+        const Id all = own(H5Gopen2(file, "/particles/all", H5P_DEFAULT), "read /particles/all");
+        H5G_info_t info;
+        check(H5Gget_info(all, &info), "read /particles/all");
+        if (info.nlinks != fields.size() + 1) // and the box
+            refuse("it has other fields (gp_output.fields)");
+        auto constant = constant_values.begin();
+        for (const FrameField &f : fields) {
+            const std::string name = std::string("/particles/all/") + f.name;
+            if (check(H5Lexists(file, name.c_str(), H5P_DEFAULT), "read " + name) == 0)
+                refuse("it lacks the field " + std::string(f.name) + " (gp_output.fields)");
+            if (f.constant) {
+                const std::vector<double> values = read_row<double>(name, H5T_NATIVE_DOUBLE);
+                if (static_cast<int64_t>(values.size()) != count ||
+                    !std::equal(values.begin(), values.end(), *constant))
+                    refuse("it is of another simulation: other values of " + std::string(f.name));
+                ++constant;
+                continue;
+            }
+            Id value = open(name + "/value");
+            std::vector<hsize_t> shape = extent_of(value, name), expected = {static_cast<hsize_t>(count)};
+            if (f.components > 1)
+                expected.push_back(3);
+            if (shape.size() != expected.size() + 1 || shape[0] < frames ||
+                !std::equal(expected.begin(), expected.end(), shape.begin() + 1))
+                refuse(name + " has another shape");
+            const Id type = own(H5Dget_type(value), "read " + name);
+            if (H5Tget_size(type) != (single ? 4u : 8u))
+                refuse("it is of another precision (gp_output.single_precision)");
+            elements.push_back({f.name, f.components, std::move(value)});
+        }
+    }
+
+    void read(hsize_t frame, std::vector<std::vector<double>> &components) const {
+        auto next = components.begin();
+        for (const Element &element : elements) {
+            const std::size_t n = static_cast<std::size_t>(count), width = element.components == 1 ? 1 : 3;
+            packed.resize(n * width);
+            std::vector<hsize_t> start{frame, 0}, slab{1, n};
+            if (width == 3) {
+                start.push_back(0);
+                slab.push_back(3);
+            }
+            if (n > 0) {
+                const std::string what = "read frame " + std::to_string(frame) + " of " + element.name;
+                const Id place = own(H5Dget_space(element.value), what), memory = space(slab, slab);
+                check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, slab.data(), nullptr), what);
+                check(H5Dread(element.value, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, packed.data()), what);
+            }
+            for (int c = 0; c < element.components; ++c, ++next) {
+                next->resize(n);
+                for (std::size_t k = 0; k < n; ++k)
+                    (*next)[k] = packed[width * k + static_cast<std::size_t>(c)];
+            }
+        }
+    }
+};
+
+EarlierFrames::EarlierFrames(const std::string &path, const FrameHeader &header, const std::vector<FrameField> &fields,
+                             const std::vector<const double *> &constant_values, bool single_precision)
+    : impl_(new Impl) {
+    require_regular_file(path);
+    const Session session;
+    Impl &impl = *impl_;
+    impl.path = path;
+    impl.count = header.count;
+    impl.check_version();
+    impl.access = impl.own(H5Pcreate(H5P_FILE_ACCESS), "open the file");
+    impl.check(H5Pset_fclose_degree(impl.access, H5F_CLOSE_STRONG), "open the file");
+    impl.file = impl.own(H5Fopen(path.c_str(), H5F_ACC_RDONLY, impl.access), "continue the file");
+    impl.check_parameters(header);
+    const std::string home = "/particles/all/position/";
+    steps_ = impl.read_row<int64_t>(home + "step", H5T_NATIVE_INT64);
+    times_ = impl.read_row<double>(home + "time", H5T_NATIVE_DOUBLE);
+    const std::size_t frames = std::min(steps_.size(), times_.size()); // of a killed writer
+    steps_.resize(frames);
+    times_.resize(frames);
+    if (!std::is_sorted(steps_.begin(), steps_.end()))
+        impl.refuse("its steps are not in order");
+    impl.open_fields(fields, constant_values, single_precision, frames);
+}
+
+EarlierFrames::~EarlierFrames() {
+    const Session session;
+    impl_.reset();
+}
+
+void EarlierFrames::read(int64_t frame, std::vector<std::vector<double>> &components) const {
+    const Session session;
+    impl_->read(static_cast<hsize_t>(frame), components);
+}
+
+} // namespace gp::io

@@ -1,0 +1,36 @@
+// The frames of a result file that an output is to continue.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/frame_file.hpp"
+
+namespace gp::io {
+
+class EarlierFrames {
+public:
+    // Throws gp::Error(GP_E_IO) if there is no such file, or one with other particles, fields or precision.
+    EarlierFrames(const std::string &path, const FrameHeader &header, const std::vector<FrameField> &fields,
+                  const std::vector<const double *> &constant_values, bool single_precision);
+    EarlierFrames(const EarlierFrames &) = delete;
+    EarlierFrames &operator=(const EarlierFrames &) = delete;
+    ~EarlierFrames();
+
+    // Of each complete frame.
+    const std::vector<int64_t> &steps() const { return steps_; }
+    const std::vector<double> &times() const { return times_; }
+
+    // One frame: the components of the fields that are not constant, in order.
+    void read(int64_t frame, std::vector<std::vector<double>> &components) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    std::vector<int64_t> steps_;
+    std::vector<double> times_;
+};
+
+} // namespace gp::io

@@ -1,0 +1,178 @@
+#include "io/safe_file.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "error.hpp"
+
+namespace gp::io {
+
+namespace {
+
+[[noreturn]] void fail(const std::string &path, const char *what, int number) {
+    throw make_error(GP_E_IO, "%s: cannot %s: %s", path.c_str(), what, std::generic_category().message(number).c_str());
+}
+
+// Owns a file descriptor.
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    Descriptor(const Descriptor &) = delete;
+    Descriptor &operator=(const Descriptor &) = delete;
+    ~Descriptor() { close(); }
+    operator int() const { return fd_; }
+    bool close() { return fd_ < 0 || ::close(std::exchange(fd_, -1)) == 0; }
+
+private:
+    int fd_;
+};
+
+std::string directory_of(const std::string &path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// Removes the file of an attempt that fails.
+struct PartFile {
+    std::string path;
+    bool kept = false;
+    ~PartFile() {
+        if (!kept && !path.empty())
+            ::unlink(path.c_str());
+    }
+};
+
+int open_part(const std::string &path, PartFile &part) {
+    static std::atomic<uint32_t> counter{0};
+    const std::size_t name = path.rfind('/') + 1; // 0 without a directory
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+        // The longest name that file systems take is 255 bytes.
+        const std::string candidate =
+            path.substr(0, name) + path.substr(name, 200) +
+            format_text(".part-%ld-%u", static_cast<long>(::getpid()), static_cast<unsigned>(counter++));
+        const int fd = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd >= 0) {
+            part.path = candidate;
+            return fd;
+        }
+        if (errno != EEXIST)
+            break;
+    }
+    fail(path, "create a file beside it", errno);
+}
+
+bool write_bytes(int fd, const unsigned char *bytes, std::size_t size) {
+    while (size > 0) {
+        const ssize_t n = ::write(fd, bytes, size);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0) {
+            errno = n == 0 ? EIO : errno;
+            return false;
+        }
+        bytes += n;
+        size -= static_cast<std::size_t>(n);
+    }
+    return true;
+}
+
+void rename_file(const std::string &from, const std::string &path) {
+    if (::rename(from.c_str(), path.c_str()) != 0)
+        fail(path, "rename the new file into its place", errno);
+}
+
+// Some file systems cannot sync a directory, and some directories may be written but not read: the file is there.
+void sync_directory(const std::string &path) {
+    const Descriptor directory(::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (directory >= 0 && ::fsync(directory) != 0 && errno != EINVAL && errno != ENOTSUP)
+        fail(path, "sync its directory", errno);
+}
+
+int open_regular(const std::string &path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat status;
+    if (fd < 0)
+        fail(path, "open the file", errno);
+    if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode))
+        return fd;
+    ::close(fd);
+    throw make_error(GP_E_IO, "%s: cannot open the file: not a regular file", path.c_str());
+}
+
+} // namespace
+
+std::string replaceable_path(const std::string &path) {
+    if (path.empty() || path.back() == '/')
+        throw make_error(GP_E_IO, "%s: cannot create the file: the path names no file", path.c_str());
+    struct stat status;
+    if (::stat(path.c_str(), &status) != 0) {
+        if (errno != ENOENT)
+            fail(path, "create the file", errno);
+        return path;
+    }
+    if (S_ISDIR(status.st_mode))
+        fail(path, "create the file", EISDIR);
+    if (!S_ISREG(status.st_mode))
+        throw make_error(GP_E_IO, "%s: cannot create the file: not a regular file", path.c_str());
+    if (::lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode)) {
+        char *const resolved = ::realpath(path.c_str(), nullptr);
+        if (resolved == nullptr)
+            fail(path, "follow the link", errno);
+        const std::string target = resolved;
+        std::free(resolved);
+        return target;
+    }
+    return path;
+}
+
+void move_into_place(const std::string &from, const std::string &path) {
+    rename_file(from, path);
+    sync_directory(path);
+}
+
+void replace_file(const std::string &path, const unsigned char *bytes, std::size_t size) {
+    const std::string target = replaceable_path(path);
+    PartFile part;
+    Descriptor file(open_part(target, part));
+    if (!write_bytes(file, bytes, size))
+        fail(path, "write the file", errno);
+    if (::fsync(file) != 0)
+        fail(path, "sync the file", errno);
+    if (!file.close())
+        fail(path, "close the file", errno);
+    rename_file(part.path, target);
+    part.kept = true;
+    sync_directory(target);
+}
+
+void require_regular_file(const std::string &path) {
+    const Descriptor file(open_regular(path));
+}
+
+std::vector<unsigned char> read_file(const std::string &path) {
+    const Descriptor file(open_regular(path));
+    struct stat status;
+    if (::fstat(file, &status) != 0)
+        fail(path, "read the file", errno);
+    std::vector<unsigned char> bytes(static_cast<std::size_t>(status.st_size));
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t n = ::read(file, bytes.data() + done, bytes.size() - done);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            fail(path, "read the file", errno);
+        if (n == 0)
+            bytes.resize(done);
+        done += static_cast<std::size_t>(n);
+    }
+    return bytes;
+}
+
+} // namespace gp::io

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Tests of what makes the reference pages: that nothing public can be left out in silence."""
+import os
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "docs", "site"))
+import c_reference  # noqa: E402
+import fortran_reference  # noqa: E402
+import make  # noqa: E402
+import text  # noqa: E402
+
+HEADER = """/* sample: a sample.
+ *
+ * Conventions
+ *   - All is well.
+ */
+/* ---------------------------------------------------------------------------------- scene */
+typedef struct gp_sim gp_sim;
+%s
+GP_API int gp_begin(gp_sim *sim);
+"""
+
+
+def pages_of(writer, *arguments):
+    """What a writer of a reference returns, and its pages in one."""
+    with tempfile.TemporaryDirectory() as work:
+        names = writer(*[os.path.join(work, argument) if argument == "pages" else argument for argument in arguments])
+        read = []
+        for page in os.listdir(os.path.join(work, "pages")):
+            with open(os.path.join(work, "pages", page), encoding="utf-8") as source:
+                read.append(source.read())
+        return names, "\n".join(read)
+
+
+class CReference(unittest.TestCase):
+    def pages(self, comment):
+        with tempfile.NamedTemporaryFile("w", suffix=".h") as header:
+            header.write(HEADER % comment)
+            header.flush()
+            return pages_of(c_reference.write_c_reference, header.name, ["cc"], "pages")
+
+    def test_has_the_functions_and_their_comments(self):
+        names, pages = self.pages("/* Begins *sim, see gp_begin. */")
+        self.assertEqual(names, ["gp_begin"])
+        self.assertIn(".. c:function:: int gp_begin(gp_sim *sim)", pages)
+        self.assertIn("   Begins \\*sim, see \\ :c:func:`gp_begin`\\ .", pages)
+        self.assertIn("- All is well.", pages)
+
+    def test_refuses_a_function_without_a_comment(self):
+        with self.assertRaisesRegex(c_reference.ReferenceError_, "gp_begin has no comment"):
+            self.pages("")
+
+
+class FortranReference(unittest.TestCase):
+    SOURCES = os.path.join(ROOT, "bindings", "fortran")
+    FUNCTIONS = ["gp_run", "gp_save", "gp_output_write", "gp_output_close"]
+
+    def test_has_every_bound_procedure_with_its_arguments(self):
+        names, pages = pages_of(fortran_reference.write_fortran_reference, self.SOURCES, self.FUNCTIONS, "pages")
+        self.assertIn("sim%plate_load", names)
+        self.assertIn("sim%save", names)
+        self.assertIn(".. fortran:: call sim%run(t_end, status, message)", pages)
+        self.assertIn("- ``t_end``: ``real(c_double), intent(in)``", pages)
+
+    def test_refuses_a_procedure_that_nothing_describes(self):
+        procedure = fortran_reference.Procedure("subroutine", "new", ["self"], None, {}, [])
+        with self.assertRaisesRegex(fortran_reference.FortranError, "new has no comment"):
+            fortran_reference.of_bound("new", procedure, [])
+
+
+class Pages(unittest.TestCase):
+    def test_a_missing_name_is_told(self):
+        with tempfile.TemporaryDirectory() as html:
+            for language, words in (("c", '<dt id="c.gp_begin">'), ("python", '<dt id="granperi.Plate">'),
+                                    ("fortran", "<b>sim%run</b>(t_end)")):
+                make.write(os.path.join(html, "reference", language, "page.html"), words)
+            self.assertEqual(make.missing_in(html, ["gp_begin"], ["granperi.Plate"], ["sim%run"]), [])
+            self.assertEqual(make.missing_in(html, ["gp_end"], ["granperi.Pl"], ["sim%ru"]), ["gp_end", "granperi.Pl", "sim%ru"])
+
+    def test_links_lead_to_pages(self):
+        self.assertEqual(make.target_of("guide/errors.md", "python.md"), "../guide/python.md")
+        self.assertEqual(make.target_of("guide/errors.md", "../../include/granperi/gp.h"), "../reference/c/index.rst")
+        self.assertEqual(make.target_of("guide/errors.md", "../../examples/c/hit_block.c"), "../examples/c/hit_block.c.md")
+        self.assertIsNone(make.target_of("validation.md", "../bench/README.md"))
+        with self.assertRaisesRegex(make.PageError, "there is no nowhere.md"):
+            make.target_of("guide/errors.md", "nowhere.md")
+
+    def test_lists_of_comments_are_lists(self):
+        self.assertEqual(text.paragraphs("Two:\n  - one and\n    its end\n  - two\nThen a_b."),
+                         ["Two:", "", "- one and", "  its end", "- two", "", "Then a\\_b."])
+
+
+if __name__ == "__main__":
+    unittest.main()
