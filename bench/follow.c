@@ -56,12 +56,14 @@ static void look(drift *d, gp_sim *sim, int64_t n) {
     free(now);
 }
 
-static double run_out(double left, double right) {
-    return (right - left) / 2 / trial_half_width - 1;
+/* Mean of both sides; with one side its wall is at 0. */
+static double run_out(const trial *t, double left, double right) {
+    return (t->sides == 1 ? right : (right - left) / 2) / trial_reference(t) - 1;
 }
 
 /* Outermost points at which the surface is above the threshold, of stations half a spacing apart. */
-static double front_of(gp_sim *sim, const gp_state *s, double dl, double threshold) {
+static double front_of(gp_sim *sim, const trial *t, const gp_state *s, double threshold) {
+    const double dl = trial_spacing(t);
     const int64_t n = (int64_t)ceil(fmax(0, s->x_right - s->x_left) / (dl / 2)) + 1;
     double *x = allocate(2 * n), *height = x + n, left = INFINITY, right = -INFINITY;
     int64_t k;
@@ -74,7 +76,7 @@ static double front_of(gp_sim *sim, const gp_state *s, double dl, double thresho
             right = fmax(right, x[k]);
         }
     free(x);
-    return run_out(left, right);
+    return run_out(t, left, right);
 }
 
 static int ascending(const void *a, const void *b) {
@@ -83,7 +85,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* A share of the mass lies beyond each end; between two particles the quantile goes linearly. */
-static double spread_of(gp_sim *sim, int64_t n, double share) {
+static double spread_of(gp_sim *sim, const trial *t, int64_t n, double share) {
     double *x = allocate(n);
     const double place = share * (double)n - 0.5, part = place - floor(place);
     const int64_t k = (int64_t)fmax(0, floor(place));
@@ -93,7 +95,7 @@ static double spread_of(gp_sim *sim, int64_t n, double share) {
     left = x[k] + part * (x[k + 1] - x[k]);
     right = x[n - 1 - k] - part * (x[n - 1 - k] - x[n - 2 - k]);
     free(x);
-    return run_out(left, right);
+    return run_out(t, left, right);
 }
 
 static double memory_of(gp_sim *sim) {
@@ -107,17 +109,18 @@ static double memory_of(gp_sim *sim) {
     return bytes;
 }
 
-static void write_row(FILE *table, const gp_state *s, const outcome *o, const drift *d, const roughness *r, double dl) {
-    const double unit = trial_density() * gravity * trial_height;
+static void write_row(FILE *table, const gp_state *s, const outcome *o, const drift *d, const roughness *r,
+                      const trial *t) {
+    const double dl = trial_spacing(t), unit = trial_density() * gravity * trial_height(t);
     fprintf(table, "%.6g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,%lld\n", s->time,
             s->peak_height, s->x_left, s->x_right, s->kinetic / o->energy, s->energy_error / o->energy, s->rms_speed,
             s->max_speed, s->max_pressure / unit, r->pressure / unit, r->unseen, s->penalty_dissipated / o->energy,
             d->largest / dl, d->rms / dl, s->at_rest, (long long)s->step);
 }
 
-static void update(outcome *o, const following *f) {
+static void update(outcome *o, const trial *t, const following *f) {
     const gp_state *s = &o->state;
-    const double unit = trial_density() * gravity * trial_height;
+    const double unit = trial_density() * gravity * trial_height(t);
     if (!s->at_rest)
         o->rest = NAN;
     else if (isnan(o->rest))
@@ -141,13 +144,13 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
     if (f->table)
         fprintf(f->table, "%s\n", follow_header);
     for (row = 0;; ++row) {
-        update(&o, f);
+        update(&o, t, f);
         if (f->table) {
             if (o.state.time >= f->drift_from)
                 look(&d, sim, o.state.n_particles);
             if (f->rough)
                 r = roughness_of(sim, 4 * dl);
-            write_row(f->table, &o.state, &o, &d, &r, dl);
+            write_row(f->table, &o.state, &o, &d, &r, t);
         }
         if (o.state.time >= f->end || o.state.time >= o.rest + f->rested ||
             (f->steps > 0 && (double)o.state.step >= f->steps))
@@ -161,9 +164,10 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
             break;
     }
     o.peak = o.state.peak_height;
-    o.tip = run_out(o.state.x_left, o.state.x_right);
-    o.front = front_of(sim, &o.state, dl, 0.05 * trial_height);
-    o.spread = spread_of(sim, o.state.n_particles, 0.01);
+    o.tip = run_out(t, o.state.x_left, o.state.x_right);
+    o.front = front_of(sim, t, &o.state, 0.05 * trial_height(t));
+    o.spread = spread_of(sim, t, o.state.n_particles, 0.01);
+    o.bulk = spread_of(sim, t, o.state.n_particles, 0.05);
     o.memory = memory_of(sim);
     o.drift = d.largest / dl;
     o.seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;

@@ -24,6 +24,7 @@ typedef struct outcome {
     double tip;       /* run-out of the connected deposit's ends over L0, mean of both sides: (x - L0) / L0 */
     double front;     /* the same where the deposit is 0.05 H thick */
     double spread;    /* the same between whose ends are 98 % of the mass */
+    double bulk;      /* and 90 %: without the film of single particles ahead of the deposit, whose mass goes with dl */
     double rest;      /* s, since when it has been at rest; NAN: it is not */
     double gain;      /* largest of kinetic + potential + elastic energy over E0, less 1: none can come from anywhere */
     double error;     /* largest |energy_error| / E0 */

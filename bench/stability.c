@@ -15,7 +15,7 @@ static const char *const command_names[COMMANDS] = {"collapse", "layer", "limit_
 
 static const char usage[] =
     "usage: stability collapse|layer|limit_collapse|limit_layer [options]\n\n"
-    "collapse  a column, 0.08 m wide and 0.05 m high, collapses to both sides; --seeds: again for that many seeds\n"
+    "collapse  a column, 0.08 m wide and 0.05 m high unless said otherwise, collapses; --seeds: again for that many seeds\n"
     "layer     a layer, 0.05 m deep and periodic, that should stay at rest on its rough floor\n"
     "limit_... searches the largest stable time step of the scene\n"
     "Prints lines of \"name value unit\".\n";
@@ -63,6 +63,7 @@ static void print_outcome(const outcome *o, double seconds, double particle_step
     printf("tip                 %.8g L0\n", o->tip);
     printf("front               %.8g L0\n", o->front);
     printf("spread              %.8g L0\n", o->spread);
+    printf("bulk                %.8g L0\n", o->bulk);
     printf("rest                %.6g s\n", o->rest);
     printf("gain                %.6g E0\n", o->gain);
     printf("error               %.6g E0\n", o->error);
@@ -93,7 +94,7 @@ static void run(trial *t, choices *c) {
     int k;
     memset(&first, 0, sizeof first);
     if (seeds)
-        fprintf(seeds, "seed,diverged,peak,tip,front,spread,rest,error,gain,kinetic,pressure,steps\n");
+        fprintf(seeds, "seed,diverged,peak,tip,front,spread,bulk,rest,error,gain,kinetic,pressure,steps\n");
     for (k = 0; k < (int)c->seeds; ++k, ++t->seed) {
         gp_sim *sim = trial_create(t);
         c->follow.table = k == 0 ? open_table(c, "series") : NULL;
@@ -105,8 +106,8 @@ static void run(trial *t, choices *c) {
         if (k == 0)
             first = o;
         if (seeds)
-            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
-                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.rest, o.error, o.gain, o.kinetic,
+            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
+                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.bulk, o.rest, o.error, o.gain, o.kinetic,
                     o.pressure, (long long)o.state.step);
     }
     close_table(seeds);

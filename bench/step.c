@@ -1,11 +1,10 @@
 /* What a time step costs: a collapse (both_side, a = 1.25) is run to the middle of its flow, then some steps are measured.
- * docs/performance.md is made with it; bench/README.md says how to measure. */
+ * docs/hot-path.md is made with it; bench/README.md says how to measure. */
 #define _POSIX_C_SOURCE 200112L
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <time.h>
 
 #include "../examples/c/example.h" /* CHECK, floor */
@@ -14,7 +13,7 @@
 enum { ENTRIES_MAX = 128 };
 
 typedef struct choices {
-    double resolution, threads, from, steps, repeat, horizon, diffusion;
+    double resolution, threads, from, steps, repeat, horizon, diffusion, walls;
     const char *read, *write;
 } choices;
 
@@ -32,6 +31,19 @@ static double wall_seconds(void) {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Bytes, of this program. What getrusage says on Linux may be that of the program that started it. */
+static double peak_memory(void) {
+    char line[200];
+    double kibibytes = NAN;
+    FILE *status = fopen("/proc/self/status", "r");
+    while (status && fgets(line, sizeof line, status))
+        if (sscanf(line, "VmHWM: %lf", &kibibytes) == 1)
+            break;
+    if (status)
+        fclose(status);
+    return 1024 * kibibytes;
 }
 
 static int64_t count_of(gp_sim *sim) {
@@ -71,6 +83,17 @@ static void write_particles(gp_sim *sim, const char *path) {
     free(data);
 }
 
+/* Smooth; material on the right of the way from y0 to y1. */
+static void add_wall(gp_sim *sim, double x, double y0, double y1) {
+    gp_plate wall;
+    CHECK(gp_plate_init(&wall, sizeof wall));
+    wall.x0 = wall.x1 = x;
+    wall.y0 = y0;
+    wall.y1 = y1;
+    wall.friction = GP_WALL_FREE_SLIP;
+    CHECK(gp_add_plate(sim, &wall, NULL));
+}
+
 static gp_sim *create(const choices *c) {
     const double width = 0.08, height = 0.05, spacing = width / c->resolution;
     const double reach = width / 2 + 4 * height + 20 * spacing;
@@ -98,6 +121,10 @@ static gp_sim *create(const choices *c) {
         CHECK(gp_add_column(sim, &column, NULL));
     }
     example_add_floor(sim, -reach, reach);
+    if (c->walls != 0) {
+        add_wall(sim, -width / 2, 0, height + 6 * spacing);
+        add_wall(sim, width / 2, height + 6 * spacing, 0);
+    }
     return sim;
 }
 
@@ -129,10 +156,12 @@ static void measure(gp_sim *sim, const choices *c) {
                    1e9 * (after[k].seconds - before[k].seconds) / particle_steps);
     }
     printf("bytes %.6g bytes/particle\n", bytes / (double)count_of(sim));
+    printf("peak_memory %.6g bytes, of the whole program so far\n", peak_memory());
+    printf("cpu_seconds %.6g s, of the whole program so far\n", cpu_seconds());
 }
 
 int main(int argc, char **argv) {
-    choices c = {126, 1, 0.15, 300, 1, 4, NAN, NULL, NULL};
+    choices c = {126, 1, 0.15, 300, 1, 4, NAN, 0, NULL, NULL};
     const bench_option options[] = {
         {"--resolution", "particles over the width; N = 0.625 of its square [126]", BENCH_WHOLE, &c.resolution, 4, 1e5},
         {"--threads", "threads, 0 for the OpenMP default [1]", BENCH_WHOLE, &c.threads, 0, 1024},
@@ -141,6 +170,7 @@ int main(int argc, char **argv) {
         {"--repeat", "measurements, one after the other [1]", BENCH_WHOLE, &c.repeat, 1, 1e6},
         {"--horizon", "spacings [4]", BENCH_NUMBER, &c.horizon, 1.8, 8},
         {"--diffusion", "density diffusion [the scheme's own]", BENCH_NUMBER, &c.diffusion, 0, 1},
+        {"--walls", "1: between smooth walls, so that it stays at rest [0]", BENCH_WHOLE, &c.walls, 0, 1},
         {"--read", "begin with the particles of this file [with a column at rest]", BENCH_TEXT, &c.read, 0, 0},
         {"--write", "write the particles at --from to this file, and end", BENCH_TEXT, &c.write, 0, 0},
     };

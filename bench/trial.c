@@ -5,8 +5,6 @@
 
 #include "../examples/c/example.h" /* CHECK, floor, gates */
 
-const double trial_height = 0.05, trial_half_width = 0.04;
-
 enum { LAYER_WIDTH = 20 }; /* spacings: twice the largest horizon and some more */
 
 /* What the scheme changes in the configuration of its preset. */
@@ -36,13 +34,20 @@ trial trial_defaults(trial_scene scene) {
     t.mu_2_degrees = 32;
     t.diameter = 0.002;
     t.mode_speed = 1e-4;
+    t.length = 0.08;
+    t.aspect = 1.25;
+    t.sides = 2;
     return t;
 }
 
 void trial_options(trial *t, bench_option *options) {
     const bench_option all[TRIAL_OPTIONS] = {
         {"--scheme", "default, paper, local or implicit [default]", BENCH_TEXT, &t->scheme, 0, 0},
-        {"--resolution", "spacings in 0.08 m [32]", BENCH_WHOLE, &t->resolution, 1, 1e5},
+        {"--resolution", "spacings in the length [32]", BENCH_WHOLE, &t->resolution, 1, 1e5},
+        {"--length", "m, width of the column [0.08]", BENCH_NUMBER, &t->length, 1e-6, 1e6},
+        {"--aspect", "height over L0, which is the length over --sides [1.25]", BENCH_NUMBER, &t->aspect, 0.01, 1000},
+        {"--sides", "1: it stands beside a smooth wall; 2: it collapses to both sides [2]", BENCH_WHOLE, &t->sides, 1,
+         2},
         {"--lift-time", "s in which a gate clears its column; 0: no gates [0]", BENCH_NUMBER, &t->lift_time, 0, 1e6},
         {"--sound-factor", "times the automatic sound speed [1]", BENCH_NUMBER, &t->sound_factor, 1e-3, 1e3},
         {"--cfl", "[the scheme's]", BENCH_NUMBER, &t->cfl, 0, 2},
@@ -70,7 +75,15 @@ void trial_options(trial *t, bench_option *options) {
 }
 
 double trial_spacing(const trial *t) {
-    return 2 * trial_half_width / t->resolution;
+    return t->length / t->resolution;
+}
+
+double trial_reference(const trial *t) {
+    return t->length / t->sides;
+}
+
+double trial_height(const trial *t) {
+    return t->aspect * trial_reference(t);
 }
 
 static void set(double *field, double value) {
@@ -127,7 +140,7 @@ static void add_column(gp_sim *sim, double x_min, double y_min, double width, do
 static void add_mode(gp_sim *sim, const trial *t, double speed) {
     const int checkerboard = bench_choice("--mode", t->mode, MODES, mode_names) == 1;
     const double dl = trial_spacing(t);
-    const int rows = (int)round(trial_height / dl);
+    const int rows = (int)round(trial_height(t) / dl);
     int i, j;
     for (j = 0; j < rows; ++j)
         for (i = 0; i < LAYER_WIDTH; ++i)
@@ -135,15 +148,24 @@ static void add_mode(gp_sim *sim, const trial *t, double speed) {
 }
 
 static void add_scene(gp_sim *sim, const trial *t, double sound_speed) {
-    const double dl = trial_spacing(t), height = dl * round(trial_height / dl), half = trial_half_width;
+    const double dl = trial_spacing(t), height = dl * round(trial_height(t) / dl);
     if (t->scene == TRIAL_LAYER) {
         example_add_floor(sim, 0, LAYER_WIDTH * dl);
         if (bench_choice("--mode", t->mode, MODES, mode_names) != 0)
             add_mode(sim, t, t->mode_speed * sound_speed);
         else
             add_column(sim, 0, 0, LAYER_WIDTH * dl, height, 0);
+    } else if (t->sides == 1) {
+        gp_plate wall;
+        add_column(sim, 0, 0, t->length, height, 0);
+        CHECK(gp_plate_init(&wall, sizeof wall)); /* material on the right of the way up */
+        wall.y1 = height + 6 * dl;
+        wall.friction = GP_WALL_FREE_SLIP;
+        CHECK(gp_add_plate(sim, &wall, NULL));
+        example_add_floor(sim, 0, t->length + 4 * height + 20 * dl);
+        example_add_gate(sim, t->length, EXAMPLE_MATERIAL_LEFT, height, dl, t->lift_time);
     } else {
-        const double reach = half + 4 * height + 20 * dl; /* run-outs reach some 2.5 heights */
+        const double half = t->length / 2, reach = half + 4 * height + 20 * dl; /* run-outs reach some 2.5 heights */
         add_column(sim, -half, 0, 2 * half, height, 0);
         example_add_floor(sim, -reach, reach);
         example_add_gate(sim, -half, EXAMPLE_MATERIAL_RIGHT, height, dl, t->lift_time);

@@ -12,7 +12,10 @@ typedef enum trial_scene { TRIAL_COLLAPSE, TRIAL_LAYER } trial_scene;
 typedef struct trial {
     trial_scene scene;
     const char *scheme;
-    double resolution; /* spacings in the length L = 0.08 m */
+    double resolution; /* spacings in the length */
+    double length;     /* m, of the column */
+    double aspect;     /* its height over L0 */
+    double sides;      /* to which it collapses: with 1, a smooth wall is at the other; L0 = length / sides */
     double lift_time;  /* s, of the gates of the collapse */
     double sound_factor, cfl, courant, horizon, interaction_radius, delta, collision_distance, zero_energy_penalty,
         density_diffusion, bulk_viscosity, friction_factor, retry_halvings, implicit_tolerance;
@@ -22,17 +25,16 @@ typedef struct trial {
     double mode_speed; /* its amplitude over c0 */
 } trial;
 
-enum { TRIAL_OPTIONS = 23 };
-
-/* The column is H = 0.05 m high, so that a = 1.25; the layer is as deep, and periodic. */
-extern const double trial_height, trial_half_width; /* m */
+enum { TRIAL_OPTIONS = 26 };
 
 trial trial_defaults(trial_scene scene);
 
 /* Fills options[TRIAL_OPTIONS] with what sets the fields of *t. */
 void trial_options(trial *t, bench_option *options);
 
-double trial_spacing(const trial *t); /* m */
+double trial_spacing(const trial *t);   /* m */
+double trial_reference(const trial *t); /* m, L0 */
+double trial_height(const trial *t);    /* m, of the column, and the depth of the layer, which is periodic */
 
 /* The simulation before its first step. Ends the program if the library refuses the options. */
 gp_sim *trial_create(const trial *t);

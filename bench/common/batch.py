@@ -42,7 +42,7 @@ def commit_of(root: Path) -> str:
 
 def execute(run: Run, program: Program, build: Path) -> dict[str, Any]:
     """Calls the program. What goes wrong becomes part of the result."""
-    path = build.resolve() / program.path
+    path = (ROOT if program.script else build.resolve()) / program.path
     data: dict[str, Any] = {
         "name": run.name,
         "program": run.program,
@@ -57,6 +57,8 @@ def execute(run: Run, program: Program, build: Path) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as scratch:
         prefix = Path(scratch) / "run"
         command = [str(path), *run.arguments]
+        if program.script:
+            command = [sys.executable, str(path), "--build", str(build.resolve()), *run.arguments]
         if program.records:
             command += ["--output", str(prefix)]
         begin = time.monotonic()
@@ -115,8 +117,11 @@ def is_current(run: Run, directory: Path, source: str, accept_older: bool) -> bo
     )
 
 
-def run_missing(studies: dict[str, list[Run]], programs: dict[str, Program], directory: Path, about: str) -> int:
-    """The command line of a report's runner: its exit status. directory: where results go by default."""
+def run_missing(
+    studies: dict[str, list[Run]], programs: dict[str, Program], directory: Path, about: str, workers: int = 2
+) -> int:
+    """The command line of a report's runner: its exit status. directory, workers: where results go and how many runs go
+    at a time, by default."""
     parser = argparse.ArgumentParser(description=about)
     parser.add_argument("--build", type=Path, default=ROOT / "build", help="where the programs are [build]")
     parser.add_argument(
@@ -124,9 +129,9 @@ def run_missing(studies: dict[str, list[Run]], programs: dict[str, Program], dir
     )
     parser.add_argument("--quick", action="store_true", help=f"only runs of an estimated {QUICK:g} CPU s or less")
     parser.add_argument("--long", action="store_true", help="also the runs that take very long")
-    parser.add_argument("--only", metavar="TEXT", help="only runs with this in their name")
+    parser.add_argument("--only", metavar="TEXT", help="only the run of this name, or runs with this in it")
     parser.add_argument("--accept-older", action="store_true", help="keep results of other states of the sources")
-    parser.add_argument("--workers", type=int, default=2, help="runs at a time [2]")
+    parser.add_argument("--workers", type=int, default=workers, help=f"runs at a time [{workers}]")
     parser.add_argument("--list", action="store_true", help="list the runs and their estimated costs; run nothing")
     arguments = parser.parse_args()
     if arguments.list:
@@ -135,9 +140,11 @@ def run_missing(studies: dict[str, list[Run]], programs: dict[str, Program], dir
 
     sources = {name: source_hash(ROOT, program) for name, program in programs.items()}
     commit = commit_of(ROOT)
+    every = cheapest_first(studies)
+    named = [run for run in every if run.name == arguments.only]
     wanted = [
         run
-        for run in cheapest_first(studies)
+        for run in named or every
         if (not arguments.quick or run.cost <= QUICK)
         and (not run.long or arguments.long)
         and (not arguments.only or arguments.only in run.name)

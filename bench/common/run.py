@@ -11,9 +11,10 @@ ROOT = Path(__file__).resolve().parents[2]
 class Program:
     """A program of the build, and the files beside the library's that its numbers depend on."""
 
-    path: str  # below the build directory
+    path: str  # below the build directory; of a script below the root
     sources: tuple[str, ...]  # patterns below the root
     records: bool = False  # takes --output and writes tables beside its summary
+    script: bool = False  # in Python; takes --build DIRECTORY before its other arguments
     refuses: bool = False  # a case that it refuses is one that it does not have yet
 
 

@@ -93,7 +93,7 @@ def main():
         print(f"{name}: {value:.0f} instructions per particle and step, checked in {expected:.0f} "
               f"({100 * (value / expected - 1):+.1f} %)")
     if beyond:
-        print(f"beyond {100 * TOLERANCE:.0f} %: if it is meant, say why in docs/performance.md and update the figures: "
+        print(f"beyond {100 * TOLERANCE:.0f} %: if it is meant, say why in docs/hot-path.md and update the figures: "
               "cmake --build build --target update_instructions")
     sys.exit(1 if beyond else 0)
 

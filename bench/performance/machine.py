@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""What the figures were measured on: processor, caches, cores, compiler, load. Lines of "name value unit"."""
+from __future__ import annotations
+
+import argparse
+import os
+import re
+from pathlib import Path
+
+CACHES = Path("/sys/devices/system/cpu/cpu0/cache")
+UNITS = {"K": 1 << 10, "M": 1 << 20, "G": 1 << 30}
+
+
+def caches() -> dict[int, float]:
+    """Bytes by level, of one core's own or of the share that it sees."""
+    found = {}
+    for entry in sorted(CACHES.glob("index*")):
+        size = re.fullmatch(r"(\d+)([KMG])", (entry / "size").read_text().strip())
+        if size and (entry / "type").read_text().strip() != "Instruction":
+            found[int((entry / "level").read_text())] = float(size[1]) * UNITS[size[2]]
+    return found
+
+
+def processor() -> str:
+    names = re.findall(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.M)
+    return names[0] if names else "unknown"
+
+
+def compiler(build: Path) -> str:
+    files = list(build.glob("CMakeFiles/*/CMakeCXXCompiler.cmake"))
+    text = files[0].read_text() if files else ""
+    return " ".join(re.findall(r'set\(CMAKE_CXX_COMPILER_(?:ID|VERSION) "([^"]*)"\)', text)) or "unknown"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=Path, required=True)
+    arguments = parser.parse_args()
+    print(f"processor: {processor()}")
+    print(f"compiler: {compiler(arguments.build)}")
+    print(f"cores {os.cpu_count()} 1")
+    for level, size in caches().items():
+        print(f"cache_{level} {size:.0f} bytes")
+    print(f"load {os.getloadavg()[2]:.2f} over 15 minutes")
+    print("cpu_seconds 0 s")
+
+
+main()

@@ -1,0 +1,14 @@
+"""Other public particle codes' throughput, measured on a machine of two x86-64 cores (51 GFLOP/s double, 17 GB/s copy per
+core), one thread. validation/references.py has their runs of the collapse."""
+from __future__ import annotations
+
+# Code, precision, neighbours of a particle, million particle-steps per s at 1e3, 1e4, 1e5 particles, ns per neighbour.
+THROUGHPUT = [
+    ("DualSPHysics 5.4, CPU (SPH)", "single, positions double", "47", (0.47, 0.53, 0.54), 40.0),
+    ("LAMMPS peri/pmb", "double", "46", (0.68, 0.54, 0.50), 40.0),
+    ("LAMMPS peri/lps (state-based peridynamics)", "double", "46", (0.33, 0.29, 0.25), 74.0),
+    ("PySPH 1.0b1", "double", "20", (0.38, 0.48, 0.45), 105.0),
+    ("Matter (MPM)", "double", "9 nodes", (1.65, 1.73, 2.08), None),
+    ("LAMMPS gran/hooke (DEM)", "double", "6", (10.8, 5.2, 4.4), 32.0),
+]
+OUR_NEIGHBOURS = 48  # of a particle inside, horizon 4

@@ -1,0 +1,118 @@
+"""Runs small cases through the runner and the report: what comes out is what a program may be judged by, and the report
+holds it. Nothing here asserts a time."""
+from __future__ import annotations
+
+import argparse
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+try:
+    import matplotlib  # noqa: F401
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+sys.path.insert(0, str(HERE.parent / "common"))
+
+import measures
+import results
+import runs
+from run import cheapest_first
+
+
+def call(*command: object) -> str:
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+    print(done.stdout, done.stderr, sep="")
+    assert done.returncode == 0, f"{command[1]} ended with status {done.returncode}"
+    return done.stdout
+
+
+def check_measures() -> None:
+    places = [(1.0, 0.4), (2.0, 0.5), (2.0, 0.1), (3.0, 0.1), (4.0, math.nan), (5.0, 0.05)]
+    assert measures.pareto(places, places) == [(1.0, 0.4), (2.0, 0.1), (5.0, 0.05)]
+    # Error = 1 / cost falls to 1/20 at 20; a curve that rises above the aim again has not got there.
+    costs = [1.0, 8.0, 64.0]
+    assert math.isclose(measures.at_error(costs, [1 / c for c in costs], 0.05), 20)
+    assert math.isnan(measures.at_error(costs, [0.5, 0.01, 0.06], 0.05))
+
+
+def check_collapse(coarse: results.Result, fine: results.Result, collection: results.Collection) -> None:
+    """Columns that have collapsed; the finest that there is stands for the converged one."""
+    ref = measures.reference(collection, "a1.25")
+    assert ref and ref.resolution == 16 and ref.seeds == runs.SCENES["a1.25"].resolutions[16]
+    own = measures.error(fine, ref, "peak")
+    assert abs(own.bias) < 1e-12 and own.one_run > 0, "an ensemble has no bias against itself, but scatter"
+    off = measures.error(coarse, ref, "bulk")
+    assert math.isclose(
+        off.one_run**2,
+        off.bias**2 + np.var(coarse.tables["seeds"]["bulk"]) / ref.value["bulk"] ** 2,
+        rel_tol=1e-9,
+    )
+    assert off.bias < 0, "a column of few particles runs out less far"
+    # Four times the particles and twice the steps.
+    assert (
+        7
+        < fine.summary["particles"] * fine.summary["steps"] / coarse.summary["particles"] / coarse.summary["steps"]
+        < 9
+    )
+
+
+def check_feature(idle: results.Result, used: results.Result) -> None:
+    assert idle.summary["unused_bytes"] == 0 and idle.summary["unused_calls"] == 0
+    assert idle.summary["bytes"] == idle.summary["bytes_minimal"] and idle.summary["same_bits"] == 1
+    assert used.summary["same_bits"] == 0, "a Coulomb floor lets the block slide"
+    assert used.summary["stage_wall_friction"] > 0
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=Path, required=True)
+    parser.add_argument("--work", type=Path, required=True)
+    arguments = parser.parse_args()
+    shutil.rmtree(arguments.work, ignore_errors=True)
+    found, docs = arguments.work / "results", arguments.work / "docs"
+    docs.mkdir(parents=True)
+    check_measures()
+
+    coarse, fine = runs.collapse("a1.25", 8), runs.collapse("a1.25", 16)
+    idle, used = runs.feature("coulomb", "idle"), runs.feature("coulomb")
+    small, machine = runs.growth(runs.GROWTH[0]), runs.machine()
+    for run in (coarse, fine, idle, used, small, machine):
+        runner = (
+            sys.executable,
+            HERE / "runner.py",
+            "--build",
+            arguments.build,
+            "--results",
+            found,
+            "--only",
+            run.name,
+        )
+        if not results.load(run, found):
+            call(*runner)
+        assert results.load(run, found), f"{run.name} has no result"
+    assert "0 to do" in call(*runner), "a run that has its result is not run again"
+    collection = results.Collection(found)
+    check_collapse(results.load(coarse, found), results.load(fine, found), collection)
+    check_feature(results.load(idle, found), results.load(used, found))
+    assert results.load(small, found).summary["particles"] == 13 * 8
+
+    call(sys.executable, HERE / "report.py", "--results", found, "--docs", docs)
+    report = (docs / "performance.md").read_text(encoding="utf-8")
+    peak = measures.reference(collection, "a1.25").value["peak"] / runs.SCENES["a1.25"].length
+    assert f"{peak:.3f} ±" in report, "the table of converged solutions has the peak"
+    assert "holds 0 bytes" in report and "Missing runs" in report and " nan" not in report.lower()
+    images = sorted(path.name for path in (docs / "images").iterdir())
+    assert images == ["performance_collapse.png", "performance_growth.png"], images
+    for name in images:
+        assert f"images/{name}" in report, f"{name} is not shown"
+    names = [one.name for one in cheapest_first(runs.studies())]
+    assert len(names) == len(set(names)) and all("/" not in name for name in names)
+
+
+main()

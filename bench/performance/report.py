@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""Writes docs/performance.md and its figures from the results of the runs. No result is typed in here."""
+from __future__ import annotations
+
+import argparse
+import functools
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import document
+import lean
+import runs
+import sections
+from document import bullets, missing_runs, provenance, tidy
+from measures import AIM
+from plots import FIGURES
+from plotting import draw_all
+from results import Collection
+from run import ROOT, cheapest_first
+
+figure = functools.partial(document.figure, "performance")
+
+COLLAPSE_CAPTION = (
+    "a = 1.25: error of one run at 1 s (bias and scatter together) against CPU time; along a line L/dl = 8, 16, 24, 32, 48, "
+    "64. Bars: two standard errors. Black and grey symbols: other codes with their L/dl, against our converged solution. A "
+    "front 0.05 H thick is a spacing thick at L/dl = 32"
+)
+OTHERS_CAPTION = "The same for a = 5 (L/dl = 8 to 32) and for one side (L/dl = 20 to 80)"
+EXACT_CAPTION = (
+    "Exact solutions: error against CPU time; along a line the resolution doubles. Symbols without a line: resolution 20, "
+    "horizon 4"
+)
+GROWTH_CAPTION = "CPU time of a step and memory against the number of particles"
+
+
+def compose(collection: Collection, drawn: set[str]) -> str:
+    body = f"""## Error against run time: collapses
+
+Columns of glass beads on a rough floor, released at once: both sides, a = 1.25 (0.08 m wide, 0.05 m high), a = 5 (0.08 m,
+0.20 m), and one side beside a smooth wall (0.20 m, 0.14 m, grains of 0.7 mm). Peak and run-out (x - L0)/L0 at 1 s. There
+are several run-outs, since a film of single particles, thinner than 0.05 H, runs ahead of the deposit. If it is about a
+spacing thick (not measured), it holds some 2 % of the mass on each side at L/dl = 32, 1 % at 64: so the run-out of *98 %* of
+the mass ends inside it at coarse spacings and outside of it at fine ones. That of *90 %* ends behind it. That of the *front*
+is where the deposit is 0.05 H thick, a spacing at L/dl = 32; that of the *tips*, the ends of the connected deposit, is the
+film's. "The error" is that of the peak and the run-out of 90 % of the mass, whichever is larger.
+
+The flow is chaotic: every setting is an ensemble of runs whose particles start up to {runs.JITTER:g} dl beside each
+other's. *Bias* is the error of their mean, ± two standard errors (those of the converged solution included). *One run* is
+the root mean square error of its runs: bias and scatter together, what somebody who runs the scene once has to reckon with.
+CPU s are those of one run to 1 s, per simulated second, at rest or not.
+
+### The converged solution
+
+The default scheme at the finest spacing that was run. In the last column of each quantity the bias of the next coarser
+ensemble against it: what is left to converge is of that order, and errors below it are not known.
+
+{sections.convergence(collection)}
+
+### a = 1.25
+
+{figure("collapse", drawn, COLLAPSE_CAPTION)}
+
+\\*: no other setting that was run is both cheaper and better (the error of one run, peak or run-out whichever is larger).
+
+{sections.errors(collection, "a1.25")}
+
+### Other codes
+
+Runs of the same column with the same μ(I) law, instant release, with public codes
+([references.py](../bench/validation/references.py)): CPU s on a machine of two x86-64 cores, one thread, peak and front at
+3 s. Their errors are against our converged solution, so that they say how far the codes are apart, not who is right; their
+front is compared with our tips.
+
+{sections.peers(collection)}
+
+Throughput of public particle codes on the same machine ([peers.py](../bench/performance/peers.py)), one thread:
+
+{sections.throughput(collection)}
+
+### a = 5 and one side
+
+{figure("others", drawn, OTHERS_CAPTION)}
+
+a = 5:
+
+{sections.errors(collection, "a5")}
+
+One side:
+
+{sections.errors(collection, "one_side")}
+
+### Does a narrower horizon pay?
+
+At the same spacing; in brackets horizon 4. Bias, but in the last column one run.
+
+{sections.horizons(collection)}
+
+### Recommended settings
+
+The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim, as
+do all finer ones of the same setting. Options not named are the library's.
+
+{sections.recommended(collection)}
+
+## Error against run time: exact solutions
+
+Error and, in brackets, CPU s. Scenes and exact solutions as in [validation.md](validation.md#exact-solutions). Free fall
+and the power identity hold to 1e-12 at any setting and are tests.
+
+{sections.exact(collection)}
+
+{figure("exact", drawn, EXACT_CAPTION)}
+
+{sections.exact_varied(collection)}
+
+## What a scene does not need
+
+The smallest scene: a block of 640 particles collapses on a floor, without penalty, diffusion, bulk viscosity and
+collisions. One feature at a time is added; steps of both scenes run in turn, and the ratio of their CPU times is the median
+of 41. *Idle*: it is there, with nothing to do. Instructions are callgrind's, of the steps alone, and do not depend on the
+load of the machine. What is used changes the flow, too: a block between walls makes its lists less often.
+
+{lean.unused(collection)}
+
+{lean.features(collection)}
+
+A plate out of reach of all material leaves the plan (`gp_get_plan`), and its ghosts with it.
+
+### Builds
+
+{lean.builds(collection)}
+
+{lean.start(collection)}
+
+## Memory and growth
+
+{lean.memory(collection)}
+
+{lean.linear(collection)}
+
+{figure("growth", drawn, GROWTH_CAPTION)}
+
+"At rest": a column between smooth walls, the same work per particle at every size; its lists are not made anew. "In flow":
+the collapse, 300 steps at {runs.FLOW_FROM:g} s.
+
+{lean.growth(collection)}
+
+## Threads
+
+`bench/step`, one thread and two in turn, wall-clock times, medians of seven; `OMP_WAIT_POLICY=passive`.
+
+{lean.threads(collection)}
+
+## The hot path
+
+[hot-path.md](hot-path.md): what a step costs and what was done about it, each change with prediction and measurement, written by
+hand.
+"""
+    head = f"""# Performance
+
+Made by `scripts/performance` ([bench/performance](../bench/performance)); `scripts/performance --report-only` writes it anew from the
+results in `results/performance`. Every number is measured by a run or cited. {lean.machine(collection)}
+{provenance(collection, "scripts/performance")} Costs are CPU time, errors below {100 * AIM:g} % are the aim.
+
+{bullets(sections.in_short(collection) + lean.in_short(collection))}
+
+"""
+    return tidy(head + body + missing_runs(collection))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument(
+        "--results",
+        type=Path,
+        default=ROOT / "results" / "performance",
+        help="where the results are [results/performance]",
+    )
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where performance.md goes [docs]")
+    arguments = parser.parse_args()
+    collection = Collection(arguments.results)
+    drawn = draw_all(FIGURES, arguments.docs / "images", "performance", collection)
+    for run in cheapest_first(runs.studies()):
+        collection(run)
+    report = arguments.docs / "performance.md"
+    report.write_text(compose(collection, drawn), encoding="utf-8")
+    print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")
+
+
+if __name__ == "__main__":
+    main()
