@@ -16,11 +16,6 @@ public:
     std::vector<std::string> of_step(const World &world);  // after each
     std::vector<std::string> of_retry(const World &world, const char *error);
 
-    // A bit per kind that has been told.
-    uint32_t told() const { return told_; }
-    void set_told(uint32_t told) { told_ = told; }
-    static constexpr uint32_t all_kinds = (1u << 8) - 1;
-
 private:
     enum Kind {
         scene, // all of its own
@@ -30,8 +25,17 @@ private:
         fast_plate,
         passed_plate,
         large_penalty,
-        large_energy_error
+        large_energy_error,
+        kinds
     };
+
+public:
+    // A bit per kind that has been told.
+    uint32_t told() const { return told_; }
+    void set_told(uint32_t told) { told_ = told; }
+    static constexpr uint32_t all_kinds = (1u << kinds) - 1;
+
+private:
     bool is_new(Kind kind); // and not any more
 
     uint32_t told_ = 0; // bit per kind

@@ -18,24 +18,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace gp::io {
+#include "io/safe_file.hpp"
 
-inline bool write_all(int fd, const void *source, size_t size, uint64_t offset) noexcept {
-    const char *bytes = static_cast<const char *>(source);
-    while (size > 0) {
-        const ssize_t n = ::pwrite(fd, bytes, size, static_cast<off_t>(offset));
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0) {
-            errno = n == 0 ? EIO : errno;
-            return false;
-        }
-        bytes += n;
-        size -= static_cast<size_t>(n);
-        offset += static_cast<uint64_t>(n);
-    }
-    return true;
-}
+namespace gp::io {
 
 // The bytes of the HDF5 file. HDF5's own drivers write in any order, so that a program killed between two writes can
 // leave a file without a readable frame, and after a failed write HDF5 can neither close the file nor end quietly.

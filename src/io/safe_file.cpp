@@ -68,21 +68,6 @@ int open_part(const std::string &path, PartFile &part) {
     fail(path, "create a file beside it", errno);
 }
 
-bool write_bytes(int fd, const unsigned char *bytes, std::size_t size) {
-    while (size > 0) {
-        const ssize_t n = ::write(fd, bytes, size);
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0) {
-            errno = n == 0 ? EIO : errno;
-            return false;
-        }
-        bytes += n;
-        size -= static_cast<std::size_t>(n);
-    }
-    return true;
-}
-
 void rename_file(const std::string &from, const std::string &path) {
     if (::rename(from.c_str(), path.c_str()) != 0)
         fail(path, "rename the new file into its place", errno);
@@ -107,6 +92,23 @@ int open_regular(const std::string &path) {
 }
 
 } // namespace
+
+bool write_all(int fd, const void *source, std::size_t size, uint64_t offset) noexcept {
+    const char *bytes = static_cast<const char *>(source);
+    while (size > 0) {
+        const ssize_t n = ::pwrite(fd, bytes, size, static_cast<off_t>(offset));
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0) {
+            errno = n == 0 ? EIO : errno;
+            return false;
+        }
+        bytes += n;
+        size -= static_cast<std::size_t>(n);
+        offset += static_cast<uint64_t>(n);
+    }
+    return true;
+}
 
 std::string replaceable_path(const std::string &path) {
     if (path.empty() || path.back() == '/')
@@ -141,7 +143,7 @@ void replace_file(const std::string &path, const unsigned char *bytes, std::size
     const std::string target = replaceable_path(path);
     PartFile part;
     Descriptor file(open_part(target, part));
-    if (!write_bytes(file, bytes, size))
+    if (!write_all(file, bytes, size, 0))
         fail(path, "write the file", errno);
     if (::fsync(file) != 0)
         fail(path, "sync the file", errno);

@@ -8,6 +8,9 @@
 
 namespace gp::io {
 
+// Writes all of it from an offset on, however often the system takes only a part. False, with errno, where it cannot.
+bool write_all(int fd, const void *source, std::size_t size, uint64_t offset) noexcept;
+
 // Where a file of that name is put: of a symbolic link to a file, what it points to. Throws gp::Error(GP_E_IO) where the
 // name is taken by something that is not a regular file, or names none.
 std::string replaceable_path(const std::string &path);

@@ -17,7 +17,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "io/frame_store.hpp"
+#include "io/safe_file.hpp"
 
 namespace gp::io {
 

@@ -10,23 +10,13 @@
 // pressure to be continuous: there it is rho / rho0, in the lighter one's measure (by the excess, a heavy particle of half
 // its density took the light ones beside it below zero).
 #include <algorithm>
-#include <cmath>
 
+#include "material/compression.hpp"
 #include "parallel.hpp"
 #include "stages/density_exchange.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
-
-namespace {
-
-// Integral of p d rho / rho from rho0 on over c0^2, kg/m3.
-double compression_energy(double density, double rest_density) {
-    const double compression = density / rest_density - 1;
-    return compression > 0 ? rest_density * (compression - std::log1p(compression)) : 0.0;
-}
-
-} // namespace
 
 ExchangeView prepare_exchange(World &world) {
     Particles &p = world.particles;
@@ -77,7 +67,7 @@ void density_diffusion(World &world) {
             if (p.cxx[i] == 0)
                 continue;
             const double rest = world.material_of(i).density, after = p.density[i] + p.cxx[i];
-            lost += compression_energy(p.density[i], rest) - compression_energy(after, rest);
+            lost += compression_energy(p.density[i] / rest, rest) - compression_energy(after / rest, rest); // over c0^2
             p.density[i] = after;
         }
         world.sums[block].diffused = p.volume * c2 * lost;

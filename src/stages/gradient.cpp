@@ -101,20 +101,20 @@ GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
         cluster_gradient<NoExchange>(v, c);
 }
 
-GP_MULTIVERSION void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+template <bool OneDensity> GP_INLINE void exchange_where_it_flows(const View &v, int64_t begin, int64_t end) {
     for (int64_t c = begin; c < end; ++c)
         if (!v.exchange.flows(v.clusters.first[c], v.clusters.first[c + 1]))
             cluster_gradient<NoExchange>(v, c);
         else
-            cluster_gradient<Exchange<true>>(v, c);
+            cluster_gradient<Exchange<OneDensity>>(v, c);
+}
+
+GP_MULTIVERSION void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+    exchange_where_it_flows<true>(v, begin, end);
 }
 
 GP_MULTIVERSION void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
-    for (int64_t c = begin; c < end; ++c)
-        if (!v.exchange.flows(v.clusters.first[c], v.clusters.first[c + 1]))
-            cluster_gradient<NoExchange>(v, c);
-        else
-            cluster_gradient<Exchange<false>>(v, c);
+    exchange_where_it_flows<false>(v, begin, end);
 }
 
 View view_of(World &world, const ExchangeView &exchange) {
