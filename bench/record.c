@@ -7,32 +7,17 @@
 #include <time.h>
 
 #include "../examples/c/example.h" /* CHECK */
+#include "table.h"
 
 typedef struct files {
     FILE *series, *surface, *section, *interface;
 } files;
 
 static FILE *open_table(const recording *r, const char *name, const char *header) {
-    char path[4096];
-    FILE *file;
-    if (strcmp(r->prefix, "none") == 0)
-        return NULL;
-    if (snprintf(path, sizeof path, "%s.%s.csv", r->prefix, name) >= (int)sizeof path)
-        bench_refuse("--output", r->prefix, "too long");
-    file = fopen(path, "w");
-    if (!file) {
-        fprintf(stderr, "cannot write %s\n", path);
-        exit(1);
-    }
-    fprintf(file, "%s\n", header);
+    FILE *file = bench_open_table(r->prefix, name);
+    if (file)
+        fprintf(file, "%s\n", header);
     return file;
-}
-
-static void close_table(FILE *file) {
-    if (file && (ferror(file) | fclose(file))) {
-        fprintf(stderr, "a table could not be written\n");
-        exit(1);
-    }
 }
 
 static gp_state state_of(gp_sim *sim) {
@@ -241,8 +226,8 @@ void record_run(gp_sim *sim, const recording *r) {
         s = state_of(sim);
     }
     print_summary(r, sim, &s, energy, rest_since, highest_pressure, (double)(clock() - begin) / CLOCKS_PER_SEC);
-    close_table(f.series);
-    close_table(f.surface);
-    close_table(f.section);
-    close_table(f.interface);
+    bench_close_table(f.series);
+    bench_close_table(f.surface);
+    bench_close_table(f.section);
+    bench_close_table(f.interface);
 }

@@ -8,17 +8,18 @@
 #include "follow.h"
 #include "limit.h"
 #include "options.h"
+#include "table.h"
 #include "trial.h"
 
 enum { COLLAPSE, LAYER, LIMIT_COLLAPSE, LIMIT_LAYER, COMMANDS };
 static const char *const command_names[COMMANDS] = {"collapse", "layer", "limit_collapse", "limit_layer"};
 
-static const char usage[] =
-    "usage: stability collapse|layer|limit_collapse|limit_layer [options]\n\n"
-    "collapse  a column, 0.08 m wide and 0.05 m high unless said otherwise, collapses; --seeds: again for that many seeds\n"
-    "layer     a layer, 0.05 m deep and periodic, that should stay at rest on its rough floor\n"
-    "limit_... searches the largest stable time step of the scene\n"
-    "Prints lines of \"name value unit\".\n";
+static const char usage[] = "usage: stability collapse|layer|limit_collapse|limit_layer [options]\n\n"
+                            "collapse  a column, 0.08 m wide and 0.05 m high unless said otherwise, collapses; "
+                            "--seeds: again for that many seeds\n"
+                            "layer     a layer, 0.05 m deep and periodic, that should stay at rest on its rough floor\n"
+                            "limit_... searches the largest stable time step of the scene\n"
+                            "Prints lines of \"name value unit\".\n";
 
 typedef struct choices {
     following follow;
@@ -26,28 +27,6 @@ typedef struct choices {
     const char *prefix;
     double seeds;
 } choices;
-
-static FILE *open_table(const choices *c, const char *name) {
-    char path[4096];
-    FILE *file;
-    if (strcmp(c->prefix, "none") == 0)
-        return NULL;
-    if (snprintf(path, sizeof path, "%s.%s.csv", c->prefix, name) >= (int)sizeof path)
-        bench_refuse("--output", c->prefix, "too long");
-    file = fopen(path, "w");
-    if (!file) {
-        fprintf(stderr, "cannot write %s\n", path);
-        exit(1);
-    }
-    return file;
-}
-
-static void close_table(FILE *file) {
-    if (file && (ferror(file) | fclose(file))) {
-        fprintf(stderr, "a table could not be written\n");
-        exit(1);
-    }
-}
 
 static void print_outcome(const outcome *o, double seconds, double particle_steps) {
     const gp_state *s = &o->state;
@@ -88,7 +67,7 @@ static void print_outcome(const outcome *o, double seconds, double particle_step
 
 /* The table "series" is of the first seed; "seeds" has a row for each. */
 static void run(trial *t, choices *c) {
-    FILE *seeds = open_table(c, "seeds");
+    FILE *seeds = bench_open_table(c->prefix, "seeds");
     double seconds = 0, particle_steps = 0;
     outcome first, o;
     int k;
@@ -97,9 +76,9 @@ static void run(trial *t, choices *c) {
         fprintf(seeds, "seed,diverged,peak,tip,front,spread,bulk,rest,error,gain,kinetic,pressure,steps\n");
     for (k = 0; k < (int)c->seeds; ++k, ++t->seed) {
         gp_sim *sim = trial_create(t);
-        c->follow.table = k == 0 ? open_table(c, "series") : NULL;
+        c->follow.table = k == 0 ? bench_open_table(c->prefix, "series") : NULL;
         o = follow(sim, t, &c->follow);
-        close_table(c->follow.table);
+        bench_close_table(c->follow.table);
         gp_destroy(sim);
         seconds += o.seconds;
         particle_steps += (double)o.state.n_particles * (double)o.state.step;
@@ -107,10 +86,10 @@ static void run(trial *t, choices *c) {
             first = o;
         if (seeds)
             fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
-                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.bulk, o.rest, o.error, o.gain, o.kinetic,
-                    o.pressure, (long long)o.state.step);
+                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.bulk, o.rest, o.error, o.gain,
+                    o.kinetic, o.pressure, (long long)o.state.step);
     }
-    close_table(seeds);
+    bench_close_table(seeds);
     print_outcome(&first, seconds, particle_steps);
 }
 
@@ -153,11 +132,11 @@ int main(int argc, char **argv) {
     if (command == COLLAPSE || command == LAYER) {
         run(&t, &c);
     } else {
-        FILE *table = open_table(&c, "trials");
+        FILE *table = bench_open_table(c.prefix, "trials");
         /* The last grains of a collapse are still settling; a layer has only what its jitter began. */
         c.limit.at_rest = command == LIMIT_LAYER ? 1e-7 : 1e-5;
         search_limit(&t, &c.follow, &c.limit, (int)c.seeds, table);
-        close_table(table);
+        bench_close_table(table);
     }
     return 0;
 }

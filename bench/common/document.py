@@ -1,9 +1,13 @@
 """What all reports have: figures with captions, where the numbers come from, what is missing."""
 from __future__ import annotations
 
-from typing import Iterable
+import argparse
+from pathlib import Path
+from typing import Callable, Iterable
 
+from plotting import draw_all
 from results import Collection
+from run import ROOT, Run
 
 
 def figure(prefix: str, name: str, drawn: set[str], caption: str) -> str:
@@ -52,3 +56,22 @@ def tidy(text: str) -> str:
     while "\n\n\n" in text:
         text = text.replace("\n\n\n", "\n\n")
     return text.rstrip() + "\n"
+
+
+def write_report(
+    name: str, description: str, figures: dict, every_run: Iterable[Run], compose: Callable[[Collection, set[str]], str]
+) -> None:
+    """The command line of report.py: draws the figures, looks which runs are there, and writes docs/NAME.md."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument(
+        "--results", type=Path, default=ROOT / "results" / name, help=f"where the results are [results/{name}]"
+    )
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help=f"where {name}.md goes [docs]")
+    arguments = parser.parse_args()
+    collection = Collection(arguments.results)
+    drawn = draw_all(figures, arguments.docs / "images", name, collection)
+    for run in every_run:
+        collection(run)
+    report = arguments.docs / f"{name}.md"
+    report.write_text(compose(collection, drawn), encoding="utf-8")
+    print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")

@@ -2,7 +2,6 @@
 """Writes docs/performance.md and its figures from the results of the runs. No result is typed in here."""
 from __future__ import annotations
 
-import argparse
 import functools
 import sys
 from pathlib import Path
@@ -13,12 +12,11 @@ import document
 import lean
 import runs
 import sections
-from document import bullets, missing_runs, provenance, tidy
+from document import bullets, missing_runs, provenance, tidy, write_report
 from measures import AIM
 from plots import FIGURES
-from plotting import draw_all
 from results import Collection
-from run import ROOT, cheapest_first
+from run import cheapest_first
 
 figure = functools.partial(document.figure, "performance")
 
@@ -170,24 +168,5 @@ results in `results/performance`. Every number is measured by a run or cited. {l
     return tidy(head + body + missing_runs(collection))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--results",
-        type=Path,
-        default=ROOT / "results" / "performance",
-        help="where the results are [results/performance]",
-    )
-    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where performance.md goes [docs]")
-    arguments = parser.parse_args()
-    collection = Collection(arguments.results)
-    drawn = draw_all(FIGURES, arguments.docs / "images", "performance", collection)
-    for run in cheapest_first(runs.studies()):
-        collection(run)
-    report = arguments.docs / "performance.md"
-    report.write_text(compose(collection, drawn), encoding="utf-8")
-    print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")
-
-
 if __name__ == "__main__":
-    main()
+    write_report("performance", __doc__.splitlines()[0], FIGURES, cheapest_first(runs.studies()), compose)

@@ -2,7 +2,6 @@
 """Writes docs/stability.md and its figures from the results of the runs. No result is typed in here."""
 from __future__ import annotations
 
-import argparse
 import functools
 import sys
 from pathlib import Path
@@ -14,11 +13,10 @@ import runs
 import sections
 import verdicts
 from coefficients import CRITERION, SCENE
-from document import bullets, missing_runs, provenance, tidy
+from document import bullets, missing_runs, provenance, tidy, write_report
 from plots import FIGURES
-from plotting import draw_all
 from results import Collection
-from run import ROOT, cheapest_first
+from run import cheapest_first
 
 figure = functools.partial(document.figure, "stability")
 
@@ -182,21 +180,5 @@ results in `results/stability`. Every number is measured by a run or computed fr
     return tidy(head + body + missing_runs(collection))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--results", type=Path, default=ROOT / "results" / "stability", help="where the results are [results/stability]"
-    )
-    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where stability.md goes [docs]")
-    arguments = parser.parse_args()
-    collection = Collection(arguments.results)
-    drawn = draw_all(FIGURES, arguments.docs / "images", "stability", collection)
-    for run in cheapest_first(runs.studies()):
-        collection(run)
-    report = arguments.docs / "stability.md"
-    report.write_text(compose(collection, drawn), encoding="utf-8")
-    print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")
-
-
 if __name__ == "__main__":
-    main()
+    write_report("stability", __doc__.splitlines()[0], FIGURES, cheapest_first(runs.studies()), compose)

@@ -19,7 +19,7 @@ PROGRAMS = {
     "stability": Program(
         "bench/stability",
         (
-            *(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "roughness", "trial", "options")),
+            *(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "roughness", "trial", "table", "options")),
             "examples/c/example.[ch]",
         ),
         records=True,

@@ -4,19 +4,15 @@ from __future__ import annotations
 import argparse
 import math
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-try:
-    import matplotlib  # noqa: F401
-    import numpy as np
-except ImportError as missing:
-    print(f"skipped: {missing}")
-    sys.exit(77)
-
 sys.path.insert(0, str(HERE.parent / "common"))
+
+from smoke import call  # first: skips where NumPy is missing
+
+import numpy as np
 
 import measures
 import results
@@ -24,13 +20,6 @@ import runs
 import theory
 from coefficients import COEFFICIENTS
 from run import cheapest_first
-
-
-def call(*command: object) -> str:
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
-    print(done.stdout, done.stderr, sep="")
-    assert done.returncode == 0, f"{command[1]} ended with status {done.returncode}"
-    return done.stdout
 
 
 def check_theory() -> None:

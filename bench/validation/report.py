@@ -2,7 +2,6 @@
 """Writes docs/validation.md and its figures from the results of the runs. No number is typed in here."""
 from __future__ import annotations
 
-import argparse
 import functools
 import sys
 from pathlib import Path
@@ -16,10 +15,8 @@ import physics_sections as physics
 import references as ref
 import runs
 import verdicts
-from document import bullets, missing_runs, provenance, tidy
-from plotting import draw_all
+from document import bullets, missing_runs, provenance, tidy, write_report
 from results import Collection
-from run import ROOT
 
 SCALING_SOURCES = (
     "Lube et al. (2005) and Lajeunesse et al. (2005) are experiments in channels, Staron & Hinch (2005) contact "
@@ -197,21 +194,5 @@ from the results in `results/validation`. Every number is measured by a run or c
     return tidy(head + body + missing_runs(collection))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--results", type=Path, default=ROOT / "results" / "validation", help="where the results are [results/validation]"
-    )
-    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where validation.md goes [docs]")
-    arguments = parser.parse_args()
-    collection = Collection(arguments.results)
-    drawn = draw_all(figures.FIGURES, arguments.docs / "images", "validation", collection)
-    for run in runs.all_runs():
-        collection(run)
-    report = arguments.docs / "validation.md"
-    report.write_text(compose(collection, drawn), encoding="utf-8")
-    print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")
-
-
 if __name__ == "__main__":
-    main()
+    write_report("validation", __doc__.splitlines()[0], figures.FIGURES, runs.all_runs(), compose)

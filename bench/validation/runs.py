@@ -22,7 +22,7 @@ TYPICAL_RATE = 1.0e6
 PROGRAMS = {
     "scene": Program(
         "bench/scene",
-        ("bench/scene.c", "bench/options.[ch]", "bench/record.[ch]", "examples/c/example.[ch]"),
+        ("bench/scene.c", "bench/options.[ch]", "bench/record.[ch]", "bench/table.[ch]", "examples/c/example.[ch]"),
         records=True,
     ),
     "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
