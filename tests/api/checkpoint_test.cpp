@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "../support/directory.hpp"
 #include "api_support.hpp"
 
 #ifdef GP_TEST_HDF5
@@ -19,15 +20,6 @@ namespace {
 
 class Checkpoint : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = testing::TempDir() + "granperi_checkpoint_XXXXXX";
-        ASSERT_NE(::mkdtemp(&name[0]), nullptr);
-        directory = name;
-        path = name + "/state.gpc";
-        h5 = name + "/run.h5";
-    }
-    void TearDown() override { std::filesystem::remove_all(directory); }
-
     // Nothing but these names.
     std::size_t files() const {
         std::size_t n = 0;
@@ -36,7 +28,8 @@ protected:
         return n;
     }
 
-    std::string directory, path, h5;
+    const test::TemporaryDirectory temporary{"granperi_checkpoint"};
+    const std::string directory = temporary.path(), path = directory + "/state.gpc", h5 = directory + "/run.h5";
 };
 
 std::string bytes_of(const std::string &path) {

@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "../support/directory.hpp"
 #include "api_support.hpp"
 
 #ifdef GP_TEST_HDF5
@@ -19,15 +20,8 @@ namespace {
 
 class Output : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = testing::TempDir() + "granperi_output_XXXXXX";
-        ASSERT_NE(::mkdtemp(&name[0]), nullptr);
-        directory = name;
-        path = name + "/run.h5";
-    }
-    void TearDown() override { std::filesystem::remove_all(directory); }
-
-    std::string directory, path;
+    const test::TemporaryDirectory temporary{"granperi_output"};
+    const std::string directory = temporary.path(), path = directory + "/run.h5";
 };
 
 } // namespace

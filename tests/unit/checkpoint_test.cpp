@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include "../support/directory.hpp"
 #include "granperi/gp.h"
 #include "io/checkpoint_file.hpp"
 #include "io/safe_file.hpp"
@@ -21,15 +22,6 @@ constexpr std::size_t text_size = 512;
 
 class CheckpointFileTest : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = testing::TempDir() + "checkpoint_XXXXXX";
-        ASSERT_NE(::mkdtemp(&name[0]), nullptr);
-        directory = name;
-        path = name + "/state.gpc";
-        image = name + "/image.h5";
-    }
-    void TearDown() override { std::filesystem::remove_all(directory); }
-
     // A small scene with all that a checkpoint has: a period, plates with a table, a load and the host's own motion, a set of
     // particles, an output.
     void save_sample(bool periodic) {
@@ -93,7 +85,8 @@ protected:
             .write(reinterpret_cast<const char *>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     }
 
-    std::string directory, path, image;
+    const test::TemporaryDirectory temporary{"checkpoint"};
+    const std::string directory = temporary.path(), path = directory + "/state.gpc", image = directory + "/image.h5";
 };
 
 TEST_F(CheckpointFileTest, NewerFormatIsRefused) {

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "../support/directory.hpp"
 #include "error.hpp"
 #include "frame_file_reader.hpp"
 
@@ -47,22 +48,14 @@ namespace {
 
 class FrameFileTest : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = testing::TempDir() + "frame_file_XXXXXX";
-        ASSERT_NE(::mkdtemp(&name[0]), nullptr);
-        directory = name;
-        h5 = name + "/run.h5";
-        xdmf = name + "/run.xdmf";
-    }
-    void TearDown() override { std::filesystem::remove_all(directory); }
-
     // Every frame that the file has is right, and there are `least` or more.
     void expect_good(int64_t n, int64_t least, bool single = false) {
         frames = -1;
         EXPECT_EQ(check_frames(h5, n, least, &frames, single), "");
     }
 
-    std::string directory, h5, xdmf;
+    const test::TemporaryDirectory temporary{"frame_file"};
+    const std::string directory = temporary.path(), h5 = directory + "/run.h5", xdmf = directory + "/run.xdmf";
     int64_t frames = -1;
 };
 
