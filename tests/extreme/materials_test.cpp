@@ -36,12 +36,15 @@ struct Deposits {
 
 Deposits deposits(const gp_material &m, int runs = 24) {
     Deposits found;
+    int at_rest = 0;
     for (int k = 0; k < runs; ++k) {
-        // Single grains may tremble on others, and at_rest be 0, at 1 s in one run of ten: up to 2.4e-6 of the energy.
+        // Single grains may tremble on others, and at_rest be 0, at 1 s: up to 2.4e-6 of the energy.
         const gp_state s = deposit(m, shaken(config(Collapse::length / 8), k), 1, 1e-5);
+        at_rest += s.at_rest;
         found.peak.add(s.peak_height / Collapse::length);
         found.potential.add(s.potential / (m.volume_fraction * m.grain_density) * Collapse::density / Collapse::energy);
     }
+    EXPECT_GT(at_rest, runs / 2) << "one in nine trembles (129 of 1176 runs): a known defect, and not to grow";
     return found;
 }
 
