@@ -26,7 +26,7 @@ PROGRAMS = {
         records=True,
     ),
     "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
-    "exact": Program("bench/exact", ("bench/exact.c",), refuses=True),
+    "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),
 }
 
 
