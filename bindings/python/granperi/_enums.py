@@ -81,6 +81,24 @@ class Field(enum.IntFlag):
 FIELD_NAMES = tuple(name.lower() for name in Field.__members__)
 
 #: Groups of fields by one name.
+# What each is, with its unit: gp_particles in gp.h.
+FIELD_MEANINGS = {
+    "id": "counted from 0 in the order in which particles were added",
+    "column": "id of the column or set of particles that it came with",
+    "x": "position along x, m",
+    "y": "position along y, m",
+    "vx": "velocity along x, m/s",
+    "vy": "velocity along y, m/s",
+    "pressure": "Pa, at least 0",
+    "density": "kg/m3; with Density.NUMBER rho0 N / N0",
+    "sxx": "deviatoric stress, Pa: the Cauchy stress is s - p 1",
+    "sxy": "deviatoric stress, Pa",
+    "syy": "deviatoric stress, Pa: -sxx, but for Stress.REGULARIZED, whose eta_r D has a trace",
+    "shear_rate": "|gamma| = sqrt(D:D / 2), D = (L + L^T) / 2, 1/s (Jin et al. 2021, 3.3)",
+    "inertial_number": "I = 2 d |gamma| / sqrt(p / rho_s), 0 where p = 0 (Jin et al. 2021, 3.4)",
+    "viscosity": "tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2), or eta_r, Pa s (Jin et al. 2021, 3.6)",
+    "number_density": "N, the sum of the weights of the neighbours within interaction_radius (Jin et al. 2021, 2.4)",
+}
 FIELD_GROUPS = {"position": ("x", "y"), "velocity": ("vx", "vy"), "stress": ("sxx", "sxy", "syy"), "all": FIELD_NAMES}
 
 

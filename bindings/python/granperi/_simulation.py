@@ -11,7 +11,7 @@ import numpy as np
 from . import _state
 from ._checkpoint import scene_in
 from ._engine import Engine
-from ._enums import FIELD_NAMES, Field, field_names
+from ._enums import FIELD_MEANINGS, FIELD_NAMES, Field, field_names
 from ._errors import ArgumentError, ArgumentTypeError, StateError, check, doubles, number, path_bytes, pointer, whole
 from ._library import ffi, lib
 from ._objects import Column, Config, Material, Parameters, Plate
@@ -418,7 +418,10 @@ def _taken(kind: type[Parameters], given: Any, values: dict[str, Any]) -> Any:
 
 
 def _field_property(name: str) -> property:
-    return property(lambda self: self.field(name), doc=f"A copy of the field {name}, shape (n), in the order of id.")
+    return property(
+        lambda self: self.field(name),
+        doc=f"{name}: {FIELD_MEANINGS[name]}. A copy of shape (n), in the order of id.",
+    )
 
 
 for _name in FIELD_NAMES:

@@ -82,3 +82,9 @@ def test_field_groups_are_those_of_the_header():
     assert _enums.field_bits(_enums.field_names("position")) == lib.GP_FIELD_POSITION
     assert _enums.field_bits(_enums.field_names("velocity")) == lib.GP_FIELD_VELOCITY
     assert _enums.field_bits(_enums.field_names("all")) == lib.GP_FIELD_ALL
+
+
+def test_every_field_says_what_it_is():
+    assert tuple(_enums.FIELD_MEANINGS) == _enums.FIELD_NAMES
+    for name, meaning in _enums.FIELD_MEANINGS.items():
+        assert meaning in getattr(granperi.Simulation, name).__doc__
