@@ -133,13 +133,10 @@ def drift(path: Path, results: Collection) -> bool:
     figure, (left, right) = plt.subplots(1, 2, figsize=(14, 5.4), layout="constrained")
     drawn = False
     for s in runs.SCHEMES.values():
-        tried = [(f"{s.label}, cfl {c:g}", runs.drift(s.key, c)) for c in s.drift_cfls]
-        lines = ["-"] * len(tried)
-        if s.key == "default":
-            tried.append((f"{s.label}, cfl {s.own_cfl:g}, L/dl = 32", runs.drift_fine()))
-            lines.append("--")
-        for (label, run), line, shade in zip(tried, lines, _shades(COLORS[s.key], len(tried))):
-            result = results(run)
+        rests = runs.rests_of(s)
+        for rest, shade in zip(rests, _shades(COLORS[s.key], len(rests))):
+            label, line = rest.label, "-" if rest.resolution == 16 else "--"
+            result = results(rest.run)
             if not result:
                 continue
             drawn = True

@@ -44,6 +44,7 @@ class Scheme:
     limit_resolution: int = 16  # of the axis of horizons and of the layer
     limit_sounds: tuple[float, ...] = (0.5, 1, 2, 5)
     drift_end: float = 15.0  # s
+    drift_deltas: tuple[float, ...] = ()  # beside its own
     preset_delta: float = 1e-6  # 1/s
     resolution: int = 32  # L/dl, of creep
     cost: float = 1.0  # of a particle-step, in that of the default scheme
@@ -76,6 +77,7 @@ SCHEMES = {
         Scheme(
             "implicit", "implicit", 1.0, 0.8, 0.4, (0.4, 0.8), (0.8,), (1e-2, 1.0, 1e-1, 1e-3, 1e-4, 1e-6),
             (1e-2, 1e-1), limit_resolutions=(16,), limit_sounds=(0.5, 1, 2), resolution=16, cost=8.0,
+            drift_deltas=(1e-3, 1e-4),
         ),
     )
 }  # fmt: skip
@@ -206,17 +208,43 @@ def creep(scheme: str, cfl: float | None = None, delta: float | None = None) -> 
     )
 
 
-def drift(scheme: str, cfl: float, resolution: int = 16) -> Run:
+def drift(scheme: str, cfl: float, resolution: int = 16, delta: float | None = None) -> Run:
     s = SCHEMES[scheme]
     return collapse(
         scheme,
         resolution,
         s.drift_end,
         cfl=None if cfl == s.own_cfl else cfl,
-        delta=s.delta_option,
+        delta=delta or s.delta_option,
         drift_from=DRIFT_FROM,
         interval=0.1,
     )
+
+
+@dataclass(frozen=True)
+class Rest:
+    """A deposit that is looked at while it should rest."""
+
+    scheme: Scheme
+    resolution: int
+    cfl: float
+    delta: float | None
+    run: Run
+
+    @property
+    def label(self) -> str:
+        parts = [self.scheme.label, f"cfl {self.cfl:g}"]
+        parts += [f"L/dl = {self.resolution}"] if self.resolution != 16 else []
+        parts += [f"delta {self.delta:g}"] if self.scheme.drift_deltas else []
+        return ", ".join(parts)
+
+
+def rests_of(s: Scheme) -> list[Rest]:
+    found = [Rest(s, 16, cfl, s.delta_option, drift(s.key, cfl)) for cfl in s.drift_cfls]
+    found += [Rest(s, 16, s.own_cfl, delta, drift(s.key, s.own_cfl, delta=delta)) for delta in s.drift_deltas]
+    if s.key == "default":
+        found.append(Rest(s, 32, s.own_cfl, None, drift_fine()))
+    return found
 
 
 def motion_of(scheme: str) -> list[Run]:
@@ -337,7 +365,7 @@ def studies() -> dict[str, list[Run]]:
     return {
         "limits": [run for scheme in SCHEMES for run in limits_of(scheme)],
         "creep": [run for scheme in SCHEMES for run in motion_of(scheme)],
-        "drift": [drift(s.key, cfl) for s in SCHEMES.values() for cfl in s.drift_cfls] + [drift_fine()],
+        "drift": [rest.run for s in SCHEMES.values() for rest in rests_of(s)],
         "roughness": [rough_horizon(h) for h in ROUGH_HORIZONS] + [undamped(name) for name in UNDAMPED],
         "modes": [mode(pattern, penalty) for pattern in MODES for penalty in PENALTIES],
         "sensitivity": sensitivity(),

@@ -218,11 +218,8 @@ def creep(results: Collection) -> str:
 def drift(results: Collection) -> str:
     rows = []
     for s in runs.SCHEMES.values():
-        tried = [(16, c, runs.drift(s.key, c)) for c in s.drift_cfls]
-        if s.key == "default":
-            tried.append((32, s.own_cfl, runs.drift_fine()))
-        for resolution, cfl, run in tried:
-            result = results(run)
+        for rest in runs.rests_of(s):
+            result = results(rest.run)
             if not result:
                 continue
             end = s.drift_end
@@ -230,14 +227,15 @@ def drift(results: Collection) -> str:
             late = between(result, "drift", 10, end)
             rows.append(
                 [
-                    s.label, f"{resolution}", f"{cfl:g}", f"{end:g}", significant(series["drift"][-1], 2),
+                    s.label, f"{rest.resolution}", f"{rest.cfl:g}", f"{rest.delta:g}" if s.drift_deltas else "",
+                    f"{end:g}", significant(series["drift"][-1], 2),
                     significant(series["drift_rms"][-1], 2), significant(float(late[-1] - late[0]), 2),
                     significant(series["kinetic_share"][-1], 2), f"{result.summary['steps']:.2g}", cpu(result.cpu),
                     significant(result.summary["particle_steps_rate"], 2),
                 ]
             )  # fmt: skip
     return table(
-        ["scheme", "L/dl", "cfl", "to (s)", "largest / dl", "rms / dl", "largest, growth after 10 s", "KE/E0 at the end",
+        ["scheme", "L/dl", "cfl", "delta (1/s)", "to (s)", "largest / dl", "rms / dl", "largest, growth after 10 s", "KE/E0 at the end",
          "steps", "CPU s", "particle-steps / CPU s"],
         rows,
     )  # fmt: skip

@@ -16,6 +16,8 @@ struct EarlierFrames::Impl : Hdf5Writer {
     };
     int64_t count = 0;
     std::vector<Element> elements; // those that change
+    std::size_t observable_count = 0;
+    Id observables;
     mutable std::vector<double> packed;
 
     [[noreturn]] void refuse(const std::string &why) const {
@@ -92,6 +94,28 @@ struct EarlierFrames::Impl : Hdf5Writer {
         }
     }
 
+    void open_observables(std::size_t expected, std::size_t frames) {
+        const std::string name = "/observables/state/value";
+        observable_count = expected;
+        if (expected == 0)
+            return;
+        observables = open(name);
+        const std::vector<hsize_t> shape = extent_of(observables, name);
+        if (shape.size() != 2 || shape[0] < frames || shape[1] != expected)
+            refuse(name + " has another shape");
+    }
+
+    void read_observables(hsize_t frame, std::vector<double> &values) const {
+        values.resize(observable_count);
+        if (values.empty())
+            return;
+        const std::string what = "read the observables of frame " + std::to_string(frame);
+        const hsize_t start[2] = {frame, 0}, slab[2] = {1, observable_count};
+        const Id place = own(H5Dget_space(observables), what), memory = space({1, slab[1]}, {1, slab[1]});
+        check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start, nullptr, slab, nullptr), what);
+        check(H5Dread(observables, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, values.data()), what);
+    }
+
     void read(hsize_t frame, std::vector<std::vector<double>> &components) const {
         auto next = components.begin();
         for (const Element &element : elements) {
@@ -139,6 +163,7 @@ EarlierFrames::EarlierFrames(const std::string &path, const FrameHeader &header,
     if (!std::is_sorted(steps_.begin(), steps_.end()))
         impl.refuse("its steps are not in order");
     impl.open_fields(fields, constant_values, single_precision, frames);
+    impl.open_observables(header.observables.size(), frames);
 }
 
 EarlierFrames::~EarlierFrames() {
@@ -146,9 +171,11 @@ EarlierFrames::~EarlierFrames() {
     impl_.reset();
 }
 
-void EarlierFrames::read(int64_t frame, std::vector<std::vector<double>> &components) const {
+void EarlierFrames::read(int64_t frame, std::vector<std::vector<double>> &components,
+                         std::vector<double> &observables) const {
     const Session session;
     impl_->read(static_cast<hsize_t>(frame), components);
+    impl_->read_observables(static_cast<hsize_t>(frame), observables);
 }
 
 } // namespace gp::io

@@ -1,5 +1,6 @@
 #include "io/frame_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "error.hpp"
@@ -39,6 +40,8 @@ struct FrameFile::Impl : Hdf5Writer {
 
     Store store;
     Id step, time;
+    std::size_t observable_count = 0;
+    Id observables; // /observables/state/value, if there are any
     XdmfFile side;
 
     ~Impl() {
@@ -114,6 +117,7 @@ struct FrameFile::Impl : Hdf5Writer {
     bool close_hdf5() noexcept {
         for (Element &element : elements)
             element.value.close();
+        observables.close();
         step.close();
         time.close();
         return file < 0 || H5Fclose(file.release()) >= 0;
@@ -136,6 +140,8 @@ struct FrameFile::Impl : Hdf5Writer {
         for (Element &element : elements)
             if (!element.constant)
                 element.value = dataset(element.path() + "/value");
+        if (observable_count > 0)
+            observables = dataset("/observables/state/value");
         step = dataset("/particles/all/position/step");
         time = dataset("/particles/all/position/time");
     }
@@ -212,18 +218,54 @@ struct FrameFile::Impl : Hdf5Writer {
             else
                 write_constant(element, dataset, pack(element, values));
         }
+        make_scene(header.scene);
+        make_observables(header.observables);
         // step before time, which a reader goes by: of two datasets the lower one in the file is written first.
         const std::string home = "/particles/all/position/";
         step = make_dataset(home + "step", H5T_STD_I64LE, {}, true, 0, "");
         time = make_dataset(home + "time", H5T_IEEE_F64LE, {}, true, 0, "s");
         for (const Element &element : elements)
-            for (const char *name : {"step", "time"})
-                if (!element.constant && element.name != "position")
-                    check(H5Lcreate_hard(file, (home + name).c_str(), file, (element.path() + "/" + name).c_str(),
-                                         H5P_DEFAULT, H5P_DEFAULT),
-                          "link " + element.path() + "/" + name);
+            if (!element.constant && element.name != "position")
+                link_clock(home, element.path());
+        if (observable_count > 0)
+            link_clock(home, "/observables/state");
         make_group("/frames", groups_expected);
         commit("create the file");
+    }
+
+    void link_clock(const std::string &home, const std::string &element) const {
+        for (const char *name : {"step", "time"})
+            check(H5Lcreate_hard(file, (home + name).c_str(), file, (element + "/" + name).c_str(), H5P_DEFAULT,
+                                 H5P_DEFAULT),
+                  "link " + element + "/" + name);
+    }
+
+    // A dataset, since an attribute ends at 64 KiB.
+    void make_scene(const std::string &text) const {
+        if (text.empty())
+            return;
+        const std::string what = "write /parameters/scene";
+        Id type = own(H5Tcopy(H5T_C_S1), what), extent = own(H5Screate(H5S_SCALAR), what);
+        Id how = own(H5Pcreate(H5P_DATASET_CREATE), what);
+        check(H5Tset_size(type, text.size() + 1), what);
+        check(H5Pset_obj_track_times(how, false), what);
+        Id dataset = own(H5Dcreate2(file, "/parameters/scene", type, extent, H5P_DEFAULT, how, H5P_DEFAULT), what);
+        check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), what);
+    }
+
+    void make_observables(const std::vector<Observable> &all) {
+        observable_count = all.size();
+        if (all.empty())
+            return;
+        std::vector<std::string> names, units;
+        for (const Observable &observable : all) {
+            names.push_back(observable.name);
+            units.push_back(observable.unit);
+        }
+        Id group = make_group("/observables", 1), state = make_group("/observables/state", 3);
+        observables = make_dataset("/observables/state/value", H5T_IEEE_F64LE, {observable_count}, true, 0, "");
+        set_texts(observables, "names", names);
+        set_texts(observables, "units", units);
     }
 
     void write_constant(const Element &element, hid_t dataset, const double *data) {
@@ -280,7 +322,7 @@ struct FrameFile::Impl : Hdf5Writer {
         shape.insert(shape.begin(), 1);
         extent.insert(extent.begin(), start[0] + 1);
         check(H5Dset_extent(dataset, extent.data()), what);
-        if (extent.size() > 1 && count == 0)
+        if (std::find(shape.begin(), shape.end(), 0) != shape.end())
             return;
         Id place = own(H5Dget_space(dataset), what), memory = space(shape, shape);
         check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr), what);
@@ -321,12 +363,15 @@ struct FrameFile::Impl : Hdf5Writer {
                 make_view(inner + "/" + element.name, element);
     }
 
-    void write(int64_t step_number, double seconds, const std::vector<const double *> &components) {
+    void write(int64_t step_number, double seconds, const std::vector<const double *> &components,
+               const std::vector<double> &values) {
         auto next = components.begin();
         for (const Element &element : elements)
             if (!element.constant)
                 append(element.value, shape_of(element), H5T_NATIVE_DOUBLE, pack(element, next),
                        "write " + element.name);
+        if (observable_count > 0)
+            append(observables, {observable_count}, H5T_NATIVE_DOUBLE, values.data(), "write /observables/state");
         make_views();
         commit("write a frame");
         // Only now: a reader that goes by the number of times finds all else.
@@ -408,15 +453,20 @@ FrameFile::~FrameFile() {
     impl_.reset();
 }
 
-void FrameFile::write(int64_t step, double time, const std::vector<const double *> &components) {
+void FrameFile::write(int64_t step, double time, const std::vector<const double *> &components,
+                      const std::vector<double> &observables) {
     Session session;
     Impl &impl = *impl_;
-    if (!impl.is_open || Impl::pointers(impl.elements, false) != components.size())
-        throw io_failure(impl.path, "write a frame", impl.is_open ? "wrong number of components" : "it is closed");
+    const char *const wrong = !impl.is_open                                               ? "it is closed"
+                              : Impl::pointers(impl.elements, false) != components.size() ? "wrong number of components"
+                              : impl.observable_count != observables.size() ? "wrong number of observables"
+                                                                            : nullptr;
+    if (wrong)
+        throw io_failure(impl.path, "write a frame", wrong);
     try {
         if (impl.file < 0)
             impl.reopen();
-        impl.write(step, time, components);
+        impl.write(step, time, components, observables);
     } catch (...) {
         impl.abandon();
         throw;

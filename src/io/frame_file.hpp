@@ -5,7 +5,8 @@
 //   /particles/all/position/{step,time,value[T][N][3]}, velocity likewise; scalars have value[T][N]
 //                                           step and time are the same two datasets in every element
 //   /particles/all/<constant field>[N]
-//   /parameters                             attributes
+//   /parameters                             attributes; the scene as JSON text in the dataset `scene`
+//   /observables/state/{step,time,value[T][K]}   K numbers of the whole simulation, named by the attribute `names`
 //   /frames/<first of its 256>/<frame>/<field>   views of one frame each, [N] or [N][3], without data of their own:
 //                                           ParaView reads them where H5MD has one dataset for all frames
 //
@@ -28,6 +29,10 @@ struct FrameField {
     const char *unit; // as H5MD's units module writes it, e.g. "m s-1"; NULL or "": none
 };
 
+struct Observable {
+    const char *name, *unit;
+};
+
 struct FrameHeader {
     int64_t count; // particles
     double spacing;
@@ -35,6 +40,8 @@ struct FrameHeader {
     bool periodic_x; // needs the parameters periodic_x_min and periodic_x_max
     const char *creator_version;
     std::vector<std::pair<std::string, double>> parameters;
+    std::vector<Observable> observables = {}; // none: no such dataset
+    std::string scene = {};                   // empty: no such dataset
 };
 
 // Every call may throw gp::Error with GP_E_IO. Not for use by two threads at once; two files in two threads are fine.
@@ -51,8 +58,10 @@ public:
     ~FrameFile(); // closes; an error then is lost
 
     // components: one pointer per component of each field that is not constant, in order, to `count` values in the
-    // order of id. After an error the frame is lost, the earlier ones are not, and the next call tries again.
-    void write(int64_t step, double time, const std::vector<const double *> &components);
+    // order of id; observables: as many as the header has. After an error the frame is lost, the earlier ones are not, and
+    // the next call tries again.
+    void write(int64_t step, double time, const std::vector<const double *> &components,
+               const std::vector<double> &observables = {});
 
     // Puts the files into their place. Before, those that are there are as they were.
     void publish();

@@ -176,6 +176,18 @@ struct Hdf5Writer {
         set_attribute(object, name, type, type, {}, text.c_str());
     }
 
+    void set_texts(hid_t object, const char *name, const std::vector<std::string> &texts) const {
+        std::size_t width = 1; // of each, ended by a 0
+        for (const std::string &text : texts)
+            width = std::max(width, text.size() + 1);
+        std::string packed;
+        for (const std::string &text : texts)
+            packed += text + std::string(width - text.size(), '\0');
+        Id type = own(H5Tcopy(H5T_C_S1), "describe a text");
+        check(H5Tset_size(type, width), "describe a text");
+        set_attribute(object, name, type, type, {texts.size()}, packed.data());
+    }
+
     void set_integers(hid_t object, const char *name, const std::vector<hsize_t> &size, const int64_t *values) const {
         set_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, size, values);
     }

@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "check.hpp"
+#include "diagnostics.hpp"
 #include "fields.hpp"
 #ifdef GP_WITH_HDF5
 #include "io/earlier_frames.hpp"
 #include "io/frame_file.hpp"
+#include "io/scene_text.hpp"
+#include "io/state_record.hpp"
 #endif
 
 namespace gp::io {
@@ -75,6 +78,8 @@ FrameHeader header_of(const World &world) {
     header.parameters = {{"sound_speed", c.sound_speed},
                          {"horizon", c.horizon},
                          {"friction_factor", world.scene->config().friction_factor}};
+    header.observables = state_observables();
+    header.scene = scene_text(*world.scene);
     return header;
 }
 
@@ -85,6 +90,7 @@ struct Output::Impl {
     std::string path;           // absolute
     std::vector<uint32_t> bits; // of the components that change, in the order of the file
     std::vector<std::vector<double>> values;
+    std::vector<double> observables;
     std::unique_ptr<FrameFile> file;
     int64_t next = 0; // the next frame by itself is due at next * every_seconds
 
@@ -92,7 +98,7 @@ struct Output::Impl {
         std::vector<const double *> components;
         for (const std::vector<double> &component : values)
             components.push_back(component.data());
-        file->write(step, time, components);
+        file->write(step, time, components, observables);
     }
 
     // How many of the earlier frames are of the simulation as it is now.
@@ -187,7 +193,7 @@ Output::Output(const std::string &path, const gp_output &options, const World &w
         std::make_unique<FrameFile>(path, header, fields, constant_values, options.compression, single, append);
     if (append) {
         for (int64_t frame = 0; frame < kept; ++frame) {
-            earlier->read(frame, impl_->values);
+            earlier->read(frame, impl_->values, impl_->observables);
             impl_->write(earlier->steps()[frame], earlier->times()[frame]);
         }
         earlier.reset();
@@ -206,6 +212,7 @@ Output::~Output() = default;
 void Output::write(const World &world) {
     for (std::size_t k = 0; k < impl_->bits.size(); ++k)
         copy_field_by_id(world, impl_->bits[k], impl_->values[k].data());
+    impl_->observables = state_row(measure_state(world));
     impl_->write(world.clock.step, world.clock.time);
 }
 

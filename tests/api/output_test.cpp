@@ -128,6 +128,46 @@ std::vector<double> last_frame(const std::string &path, const std::string &name)
     return values;
 }
 
+// All frames of the states, row by row.
+std::vector<double> observables(const std::string &path) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t data = H5Dopen2(file, "/observables/state/value", H5P_DEFAULT), space = H5Dget_space(data);
+    std::vector<double> values(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
+    EXPECT_GE(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+    H5Sclose(space);
+    H5Dclose(data);
+    H5Fclose(file);
+    return values;
+}
+
+std::vector<std::string> observable_names(const std::string &path) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t names = H5Aopen_by_name(file, "/observables/state/value", "names", H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = H5Aget_type(names), space = H5Aget_space(names);
+    const std::size_t width = H5Tget_size(type), count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+    std::string packed(width * count, '\0');
+    EXPECT_GE(H5Aread(names, type, packed.data()), 0);
+    std::vector<std::string> found;
+    for (std::size_t k = 0; k < count; ++k)
+        found.push_back(packed.substr(k * width, width).c_str());
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Aclose(names);
+    H5Fclose(file);
+    return found;
+}
+
+std::string scene_of(const std::string &path) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t data = H5Dopen2(file, "/parameters/scene", H5P_DEFAULT), type = H5Dget_type(data);
+    std::string text(H5Tget_size(type), '\0');
+    EXPECT_GE(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), 0);
+    H5Tclose(type);
+    H5Dclose(data);
+    H5Fclose(file);
+    return text.c_str();
+}
+
 bool has_element(const std::string &path, const std::string &name) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     const bool found = H5Lexists(file, ("/particles/all/" + name).c_str(), H5P_DEFAULT) > 0;
@@ -300,6 +340,48 @@ TEST_F(Output, HoldsTheAskedFieldsInTheOrderOfId) {
         EXPECT_EQ(velocity[3 * k], vx[k]);
         EXPECT_EQ(velocity[3 * k + 1], vy[k]);
     }
+}
+
+// The state of each frame and the scene: a file says what it is the result of.
+TEST_F(Output, HoldsTheStateAtEachFrameAndTheScene) {
+    Sim sim;
+    add_collapse(sim, 6, 5);
+    const gp_output output = make_output();
+    ASSERT_EQ(gp_output_open(sim, path.c_str(), &output), GP_OK);
+    std::vector<gp_state> states;
+    for (int frame = 0; frame < 3; ++frame) {
+        ASSERT_EQ(gp_step(sim, 10), GP_OK);
+        ASSERT_EQ(gp_output_write(sim), GP_OK);
+        states.push_back(sim.state());
+    }
+    ASSERT_EQ(gp_output_close(sim), GP_OK);
+    const std::vector<std::string> names = observable_names(path);
+    const std::vector<double> rows = observables(path);
+    ASSERT_EQ(rows.size(), names.size() * states.size());
+    const auto column = [&](const char *name) {
+        return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        const double *const row = rows.data() + k * names.size();
+        const gp_state &s = states[k];
+        EXPECT_EQ(row[column("time")], s.time);
+        EXPECT_EQ(row[column("step")], static_cast<double>(s.step));
+        EXPECT_EQ(row[column("kinetic")], s.kinetic);
+        EXPECT_EQ(row[column("potential")], s.potential);
+        EXPECT_EQ(row[column("elastic")], s.elastic);
+        EXPECT_EQ(row[column("dissipated")], s.dissipated);
+        EXPECT_EQ(row[column("energy_error")], s.energy_error);
+        EXPECT_EQ(row[column("x_right")], s.x_right);
+        EXPECT_EQ(row[column("peak_height")], s.peak_height);
+        EXPECT_EQ(row[column("max_compression")], s.max_compression);
+    }
+    const std::string scene = scene_of(path);
+    const gp_config config = make_config();
+    char spacing[64];
+    std::snprintf(spacing, sizeof spacing, "\"spacing\": %.17g,", config.spacing);
+    for (const char *part : {static_cast<const char *>(spacing),
+                             "\"materials\": [{\"grain_density\": ", "\"columns\": [0]", "\"plates\": [{"})
+        EXPECT_NE(scene.find(part), std::string::npos) << part << " in " << scene;
 }
 
 // "x and y come together, so do vx and vy; id and position are always written".

@@ -11,7 +11,7 @@ from ._enums import FIELD_NAMES, StepLimit
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
 from ._objects import Material, Plate
 from ._simulation import Simulation
-from ._state import _STATE_NAMES, History, State
+from ._state import History, State
 
 if TYPE_CHECKING:
     import h5py
@@ -72,8 +72,8 @@ class Snapshot:
 
     @property
     def state(self) -> State:
-        """Fronts and peak; energies and clock only where the snapshot is that of a simulation."""
-        return self._shape().state
+        """Clock, energies, fronts and peak; of a frame wall_seconds is NaN."""
+        raise NotImplementedError
 
     def surface(self, x) -> np.ndarray:
         """Heights [m] of the free surface at x [m]; 0 outside the fronts."""
@@ -89,6 +89,10 @@ class LiveSnapshot(Snapshot):
 
     def __init__(self, sim: Simulation):
         self._sim, self.time, self.spacing = sim, sim.time, sim.config.spacing
+
+    @property
+    def state(self) -> State:
+        return self._sim.state
 
     def _read(self, name: str) -> np.ndarray:
         return self._sim.field(name)
@@ -118,12 +122,16 @@ class FileSnapshot(Snapshot):
         self.time, self.spacing = float(result.times[frame]), result.spacing
         self._sim: Simulation | None = None
 
+    @property
+    def state(self) -> State:
+        return self._result._state(self._frame)
+
     def _read(self, name: str) -> np.ndarray:
         return self._result._read(name, self._frame)
 
     def _shape(self) -> Simulation:
         if self._sim is None:
-            config = dict((self._result.scene or {}).get("config", {}))
+            config = dict(self._result.scene["config"])
             period = {name: config[name] for name in ("periodic_x_min", "periodic_x_max") if name in config}
             sim = Simulation(spacing=self.spacing, threads=1, sound_speed=self._result.sound_speed, **period)
             columns = self._read("column") if self._result.has("column") else np.zeros(len(self.x), int)
@@ -134,17 +142,17 @@ class FileSnapshot(Snapshot):
         return self._sim
 
     def _materials(self) -> list[Material]:
-        return [Material(**values) for values in self._result._need_scene()["materials"]]
+        return [Material(**values) for values in self._result.scene["materials"]]
 
     def _material_of_column(self) -> np.ndarray:
-        return np.array(self._result._need_scene()["columns"])
+        return np.array(self._result.scene["columns"])
 
     def _friction_factor(self) -> float:
         return self._result.friction_factor
 
     def plate_lines(self) -> list[tuple[float, float, float, float]]:
         lines = []
-        for values in (self._result.scene or {}).get("plates", []):
+        for values in self._result.scene["plates"]:
             plate = Plate(**values)
             if plate.knot_t is not None and plate.knot_x is not None and plate.knot_y is not None:
                 dx = float(np.interp(self.time, plate.knot_t, plate.knot_x))
@@ -162,7 +170,7 @@ class Result:
             last = result[-1]
             print(last.time, last.field("speed").max())
 
-    times [s] has the shape (number of frames). history has the states that Python has written into the file.
+    times [s] has the shape (number of frames). history has the states at the frames, scene the parameters of the scene.
     """
 
     def __init__(self, path: "str | os.PathLike[str]"):
@@ -182,7 +190,7 @@ class Result:
             self.spacing = float(attributes["spacing"])
             self.sound_speed = float(attributes["sound_speed"])
             self.friction_factor = float(attributes["friction_factor"])
-            self.scene: dict[str, Any] | None = json.loads(attributes["scene"]) if "scene" in attributes else None
+            self.scene: dict[str, Any] = json.loads(self._file["parameters/scene"][()])
         except KeyError as error:
             self._file.close()
             raise FileError(f"{self.path}: is no result file of granperi: {error.args[0]}") from None
@@ -243,35 +251,28 @@ class Result:
         whole = self._particles[name]
         return whole["value"][frame].astype(np.float64) if "value" in whole else whole[()]
 
-    def _need_scene(self) -> dict[str, Any]:
-        if self.scene is None:
-            raise ArgumentError(f"{self.path} does not tell its materials: only files written from Python do")
-        return self.scene
-
     @property
     def history(self) -> History:
-        """The states at the frames, where Python has written the file; else only clock, fronts and peak are known."""
+        """The states at the frames. What differs from run to run, wall_seconds, is not in the file: NaN."""
+        return History(self._state(frame) for frame in range(len(self)))
+
+    def _state(self, frame: int) -> State:
         if self._file is None:
             raise StateError(f"{self.path} is closed: read within its with block, or open it anew")
-        if "observables" in self._file:
-            group = self._file["observables"]
-            columns = {name: group[name][()] if name in ("step", "time") else group[name + "/value"][()]
-                       for name in _STATE_NAMES}
-            states = [dict(zip(columns, row)) for row in zip(*columns.values())]
-            return History(_state_of(values) for values in states)
-        raise ArgumentError(f"{self.path} has no energies: only files written from Python have (Simulation.record, or "
-                            "output() with write())")
+        values = self._file["observables/state/value"]
+        return _state_of(dict(zip((name.decode() for name in values.attrs["names"]), values[frame])))
 
     def __repr__(self) -> str:
         return f"<granperi.Result {self.path}: {len(self)} frames>"
 
 
+_ABSENT = {"wall_seconds": float("nan")}
 _KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
 
 
 def _state_of(values: dict[str, Any]) -> State:
     kinds = {name: _KINDS.get(name, float if State.__annotations__[name] == "float" else int) for name in values}
-    return State(**{name: kinds[name](value) for name, value in values.items()})
+    return State(**{**_ABSENT, **{name: kinds[name](value) for name, value in values.items()}})
 
 
 Source = "Simulation | Result | Snapshot | str | os.PathLike[str]"

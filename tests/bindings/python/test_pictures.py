@@ -1,4 +1,6 @@
 """Pictures and animations, of a live simulation and of a result file alike."""
+import dataclasses
+import math
 import sys
 
 import matplotlib.pyplot as plt
@@ -52,6 +54,12 @@ def test_field_maps_have_real_units_and_a_bar(source, name, tmp_path):
     assert axes.get_title("left") == "t = 0.100 s"
 
 
+def assert_same_state(kept, live):
+    """All but the wall-clock time, which a file does not keep."""
+    assert math.isnan(kept.wall_seconds)
+    assert dataclasses.replace(kept, wall_seconds=0) == dataclasses.replace(live, wall_seconds=0)
+
+
 def test_the_file_gives_what_the_simulation_gives(run):
     sim, path = run
     with granperi.Result(path) as result:
@@ -65,7 +73,9 @@ def test_the_file_gives_what_the_simulation_gives(run):
         assert kept.state.x_right == pytest.approx(live.state.x_right)
         assert kept.state.peak_height == pytest.approx(live.state.peak_height)
         assert kept.plate_lines() == pytest.approx(live.plate_lines())
-        assert result.history[-1] == sim.history[-1]
+        assert_same_state(result.history[-1], sim.history[-1])
+        assert result.scene["materials"] == [dict(material) for material in sim.materials]
+        assert result.scene["config"] == {name.rstrip("_"): value for name, value in sim.config}
 
 
 def test_what_yields(run):

@@ -1,0 +1,105 @@
+#include "io/scene_text.hpp"
+
+#include "error.hpp"
+#include "io/config_names.hpp"
+
+namespace gp::io {
+
+namespace {
+
+// Numbers are finite: the scene was checked. 17 digits give the same bits back.
+class Object {
+public:
+    explicit Object(std::string &text) : text_(text) { text_ += '{'; }
+    Object(const Object &) = delete;
+    Object &operator=(const Object &) = delete;
+    ~Object() { text_ += '}'; }
+
+    void key(const char *name) {
+        text_ += format_text("%s\"%s\": ", first_ ? "" : ", ", name);
+        first_ = false;
+    }
+    void value(const char *name, double number) {
+        key(name);
+        text_ += format_text("%.17g", number);
+    }
+    template <class Integer> void value(const char *name, Integer number) {
+        key(name);
+        text_ += std::to_string(number);
+    }
+    void array(const char *name, const std::vector<double> &numbers) {
+        key(name);
+        text_ += '[';
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            text_ += format_text("%s%.17g", k > 0 ? ", " : "", numbers[k]);
+        text_ += ']';
+    }
+    static void group(const char *) {} // of config_names.hpp: this object is it
+
+private:
+    std::string &text_;
+    bool first_ = true;
+};
+
+void add_material(std::string &text, const gp_material &m) {
+    Object object(text);
+    object.value("grain_density", m.grain_density);
+    object.value("volume_fraction", m.volume_fraction);
+    object.value("grain_diameter", m.grain_diameter);
+    object.value("mu_s", m.mu_s);
+    object.value("mu_2", m.mu_2);
+    object.value("i0", m.i0);
+}
+
+void add_plate(std::string &text, const PlateSpec &p) {
+    Object object(text);
+    object.value("x0", p.segment.origin.x());
+    object.value("y0", p.segment.origin.y());
+    object.value("x1", p.end.x());
+    object.value("y1", p.end.y());
+    object.value("friction", p.friction);
+    object.value("wall_mu", p.wall_mu);
+    object.value("vx", p.velocity.x());
+    object.value("vy", p.velocity.y());
+    if (!p.table.empty()) {
+        object.array("knot_t", p.table.t);
+        object.array("knot_x", p.table.x);
+        object.array("knot_y", p.table.y);
+    }
+    object.value("normal_pressure", p.load);
+    object.value("mass_per_length", p.mass);
+}
+
+template <class Items, class Add> void add_list(std::string &text, const Items &items, const Add &add) {
+    text += '[';
+    const char *before = "";
+    for (const auto &item : items) {
+        text += before;
+        add(text, item);
+        before = ", ";
+    }
+    text += ']';
+}
+
+} // namespace
+
+std::string scene_text(const Scene &scene) {
+    std::string text;
+    {
+        Object all(text);
+        all.key("config");
+        {
+            Object config(text);
+            exchange_config(config, scene.config());
+        }
+        all.key("materials");
+        add_list(text, scene.materials(), add_material);
+        all.key("columns");
+        add_list(text, scene.bodies(), [](std::string &to, const Body &body) { to += std::to_string(body.material); });
+        all.key("plates");
+        add_list(text, scene.plates(), add_plate);
+    }
+    return text;
+}
+
+} // namespace gp::io
