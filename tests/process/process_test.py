@@ -77,10 +77,18 @@ class Test:
         limit = lambda: resource.setrlimit(resource.RLIMIT_STACK, (small, small))
         print("ulimit -s 256:", run([program, self.work], env=environment(OMP_STACKSIZE="256K"), preexec_fn=limit), end="")
 
-    def regions(self, program):
+    def regions(self, program, **more):
         for nested in (1, 2):
-            print("OMP_MAX_ACTIVE_LEVELS=%d:" % nested,
-                  run([program, 3], env=environment(OMP_MAX_ACTIVE_LEVELS=str(nested))), end="")
+            print("%d active levels:" % nested,
+                  run([program, 3], env=environment(OMP_MAX_ACTIVE_LEVELS=str(nested), **more)), end="")
+
+    def runtime(self, program, **more):
+        """The file from which the library gets its parallel regions in this host."""
+        said = run([program, 1], env=environment(LD_DEBUG="bindings", **more))
+        for line in said.splitlines():
+            if "GOMP_parallel'" in line and "file %s" % self.library.parent in line:
+                return line.split(" to ")[1].split()[0]
+        sys.exit("FAILED: nobody serves GOMP_parallel")
 
     def region(self):
         program = self.build("region.c", "-fopenmp")
@@ -95,9 +103,14 @@ class Test:
             if "omp.h" in str(problem) or "-lomp" in str(problem):
                 skip("no libomp")
             raise
-        self.regions(program)
-        loaded = run(["ldd", program])
-        print("in one process:", ", ".join(name for name in ("libomp.so", "libgomp.so") if name in loaded))
+        # libomp has GNU's entry points, too, and the loader finds it first: it serves both. Where libgomp comes first, each of
+        # the two has its own.
+        for wanted, more in (("libomp", {}), ("libgomp", {"LD_PRELOAD": "libgomp.so.1"})):
+            runtime = self.runtime(program, **more)
+            print("the host has libomp, the library", runtime)
+            if wanted not in runtime:
+                sys.exit("FAILED: this was to be " + wanted)
+            self.regions(program, **more)
 
     def plugin(self):
         program = self.build("plugin.c", "-ldl")
