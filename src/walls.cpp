@@ -250,7 +250,7 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, cons
         });
     };
     const auto candidate_count = static_cast<int64_t>(candidates_.size());
-    for_each_block(threads, candidate_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(threads, candidate_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k)
             visit(candidates_[k], [&](int64_t i) {
                 ++candidates_[k].neighbors;
@@ -283,7 +283,7 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, cons
     }
     const int64_t pairs = particles_of_ghost.start[ghost_count];
     particles_of_ghost.index.resize(pairs);
-    for_each_block(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             int32_t *next = particles_of_ghost.index.data() + particles_of_ghost.start[k];
             visit(candidates_[k], [&](int64_t i) { *next++ = static_cast<int32_t>(i); });
@@ -348,7 +348,7 @@ void Walls::find_wall_particles(double spacing) {
 }
 
 void Walls::place_ghosts(int threads) {
-    for_each_block(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Segment &s = plates[ghost_plate[k]].segment();
             const Vector at = s.origin + ghost_along[k] * s.tangent - ghost_depth[k] * s.normal;

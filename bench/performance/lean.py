@@ -194,13 +194,15 @@ def threads(results: Collection) -> str:
         r = results(runs.threads(n))
         if r:
             s = r.summary
-            rows.append([f"{s['particles']:.0f}", fixed(s["wall_one"], 0), fixed(s["wall_several"], 0), fixed(s["speed_up"], 2),
+            rows.append([f"{s['particles']:.0f}", fixed(s["wall_one"], 0), fixed(s["wall_several"], 0), fixed(s["speed_up"], 2), fixed(s["best_speed_up"], 2), fixed(s["side_by_side"], 2),
                          f"{100 * s['more_cpu']:+.0f} %", significant(s["load"], 2)])  # fmt: skip
     header = [
         "particles",
         "one thread (ns per particle and step)",
         "two",
         "speed-up",
+        "the best of nine",
+        "two programs side by side",
         "CPU time",
         "load of the machine",
     ]
@@ -215,7 +217,11 @@ def _threads(results: Collection) -> list[str]:
     found = [r for r in (results(runs.threads(n)) for n in runs.THREADS) if r]
     if not found:
         return []
-    cells = ", ".join(f"{r.summary['speed_up']:.2f} ({r.summary['particles']:.0f} particles)" for r in found)
+    cells = ", ".join(
+        f"{r.summary['speed_up']:.2f} ({r.summary['particles']:.0f} particles; two programs side by side: "
+        f"{r.summary['side_by_side']:.2f})"
+        for r in found
+    )
     load = max(r.summary["load"] for r in found)
     said = (
         ""

@@ -147,7 +147,9 @@ the collapse, 300 steps at {runs.FLOW_FROM:g} s.
 
 ## Threads
 
-`bench/step`, one thread and two in turn, wall-clock times, medians of seven; `OMP_WAIT_POLICY=passive`.
+`bench/step` in the middle of the collapse: one thread, two, and two programs of one thread each side by side, in turn; wall-clock
+times, medians of nine. Two programs share nothing but the machine: what they do together, in the work of one alone, is what
+two threads could at most.
 
 {lean.threads(collection)}
 

@@ -320,7 +320,7 @@ def threads(resolution: int) -> Run:
     steps = int(min(4000, max(40, 4e6 / (0.625 * resolution**2))))
     options = _options(resolution=resolution, steps=steps)
     return Run(
-        _name("threads", options=options), "threads", options, 14 * 0.625 * resolution**2 * steps / TYPICAL_RATE
+        _name("threads", options=options), "threads", options, 36 * 0.625 * resolution**2 * steps / TYPICAL_RATE
     )
 
 

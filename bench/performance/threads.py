@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Wall-clock and CPU time of a step with one thread and with several, in turn: medians. Lines of "name value unit". Says
-something only on a machine at rest: the load is printed, too."""
+"""Wall-clock and CPU time of a step in the middle of the collapse with one thread and with several, in turn: medians. Also what
+the machine has to give: the same one-thread program as many times side by side, whose processors may share caches, clock
+and, under a hypervisor, cores. Lines of "name value unit". Says something only on a machine at rest: the load is printed, too."""
 from __future__ import annotations
 
 import argparse
@@ -8,26 +9,22 @@ import os
 import re
 import resource
 import subprocess
+import tempfile
 from pathlib import Path
-from statistics import median
+from statistics import mean, median
+
+FROM = 0.15  # s
 
 
-def measure(program: Path, resolution: int, threads: int, steps: int) -> dict[str, float]:
-    command = [
-        str(program),
-        "--resolution",
-        str(resolution),
-        "--from",
-        "0",
-        "--steps",
-        str(steps),
-        "--threads",
-        str(threads),
-    ]
-    run = subprocess.run(
-        command, capture_output=True, text=True, check=True, env={**os.environ, "OMP_WAIT_POLICY": "passive"}
-    )
-    return {name: float(value) for name, value in re.findall(r"^(\w+) (\S+)", run.stdout, re.M)}
+def start(program: Path, options: list[str], threads: int) -> subprocess.Popen[str]:
+    return subprocess.Popen([str(program), *options, "--threads", str(threads)], stdout=subprocess.PIPE, text=True)
+
+
+def finish(run: subprocess.Popen[str]) -> dict[str, float]:
+    text, _ = run.communicate()
+    if run.returncode:
+        raise SystemExit(f"{run.args}: status {run.returncode}")
+    return {name: float(value) for name, value in re.findall(r"^(\w+) (\S+)", text, re.M)}
 
 
 def main() -> None:
@@ -36,19 +33,32 @@ def main() -> None:
     parser.add_argument("--resolution", type=int, required=True)
     parser.add_argument("--steps", type=int, required=True)
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--repeat", type=int, default=7)
+    parser.add_argument("--repeat", type=int, default=9)
     arguments = parser.parse_args()
-    program = arguments.build / "bench" / "step"
-    pairs = [
-        [measure(program, arguments.resolution, threads, arguments.steps) for threads in (1, arguments.threads)]
-        for _ in range(arguments.repeat)
-    ]
-    print(f"particles {pairs[0][0]['particles']:.0f} 1")
-    print(f"wall_one {median(one['wall'] for one, _ in pairs):.6g} ns/particle-step")
-    print(f"wall_several {median(several['wall'] for _, several in pairs):.6g} ns/particle-step")
-    print(f"speed_up {median(one['wall'] / several['wall'] for one, several in pairs):.6g} of the wall-clock time")
-    print(f"more_cpu {median(several['cpu'] / one['cpu'] for one, several in pairs) - 1:.6g} of the CPU time, more")
-    print(f"load {os.getloadavg()[0]:.2f} over a minute")
+    program, several = arguments.build / "bench" / "step", arguments.threads
+    load = os.getloadavg()[0]  # before these runs make one themselves
+    with tempfile.TemporaryDirectory() as work:
+        particles = f"{work}/particles"
+        options = ["--resolution", str(arguments.resolution), "--from", str(FROM)]
+        finish(start(program, [*options, "--write", particles], 1))
+        options += ["--steps", str(arguments.steps), "--read", particles]
+        turns = [
+            (
+                finish(start(program, options, 1)),
+                finish(start(program, options, several)),
+                [finish(run) for run in [start(program, options, 1) for _ in range(several)]],
+            )
+            for _ in range(arguments.repeat)
+        ]
+    side_by_side = [several * one["wall"] / mean(run["wall"] for run in beside) for one, _, beside in turns]
+    print(f"particles {turns[0][0]['particles']:.0f} 1")
+    print(f"wall_one {median(one['wall'] for one, _, _ in turns):.6g} ns/particle-step")
+    print(f"wall_several {median(many['wall'] for _, many, _ in turns):.6g} ns/particle-step")
+    print(f"speed_up {median(one['wall'] / many['wall'] for one, many, _ in turns):.6g} of the wall-clock time")
+    print(f"best_speed_up {max(one['wall'] / many['wall'] for one, many, _ in turns):.6g} of the wall-clock time")
+    print(f"side_by_side {median(side_by_side):.6g} times the work of one program, by {several}")
+    print(f"more_cpu {median(many['cpu'] / one['cpu'] for one, many, _ in turns) - 1:.6g} of the CPU time, more")
+    print(f"load {load:.2f} over the minute before")
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"cpu_seconds {used.ru_utime + used.ru_stime:.3f} s")
 

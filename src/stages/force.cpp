@@ -181,8 +181,9 @@ void force(World &world) {
                             walls.ghost_ayy.data(),
                             walls.ghost_of_contact.data(),
                             1.0 / c.horizon};
-        for_each_block(world.threads, static_cast<int64_t>(walls.contacts.size()),
-                       [&](int64_t, int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
+        for_each_block<ghost_block_size>(
+            world.threads, static_cast<int64_t>(walls.contacts.size()),
+            [&](int64_t, int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
     }
     const auto clusters = c.penalty > 0 ? penalty_clusters : plain_clusters;
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {

@@ -12,7 +12,7 @@ namespace {
 void advance_ghosts(World &world) {
     Walls &w = world.walls;
     const double dt = world.clock.dt;
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Vector moved = dt * w.plates[w.ghost_plate[k]].velocity();
             w.ghost_x[k] += moved.x();

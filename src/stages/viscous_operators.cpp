@@ -69,7 +69,7 @@ void make_ghosts(World &world) {
     v.ghost_tangential.resize(w.ghost_count);
     v.ghost_velocity.resize(w.ghost_count);
     v.ghost_force.resize(w.ghost_count);
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
             for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
                 const int32_t i = w.particles_of_ghost.index[k];
@@ -100,19 +100,20 @@ void make_ghosts(World &world) {
             v.ghost_tangential[g] = plate.spec().friction == GP_WALL_NO_SLIP ? -ratio : 1.0;
         }
     });
-    for_each_block(world.threads, static_cast<int64_t>(w.contacts.size()), [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t c = begin; c < end; ++c) {
-            const int64_t i = w.contacts[c].particle;
-            for (int64_t k = w.contacts[c].begin; k < w.contacts[c].end; ++k) {
-                const int32_t g = w.ghost_of_contact[k];
-                const double dx = w.ghost_x[g] - p.x[i], dy = w.ghost_y[g] - p.y[i];
-                const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
-                v.contact_weight[k] = q;
-                v.contact_pair.x[k] = q * dx;
-                v.contact_pair.y[k] = q * dy;
-            }
-        }
-    });
+    for_each_block<ghost_block_size>(world.threads, static_cast<int64_t>(w.contacts.size()),
+                                     [&](int64_t, int64_t begin, int64_t end) {
+                                         for (int64_t c = begin; c < end; ++c) {
+                                             const int64_t i = w.contacts[c].particle;
+                                             for (int64_t k = w.contacts[c].begin; k < w.contacts[c].end; ++k) {
+                                                 const int32_t g = w.ghost_of_contact[k];
+                                                 const double dx = w.ghost_x[g] - p.x[i], dy = w.ghost_y[g] - p.y[i];
+                                                 const double q = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
+                                                 v.contact_weight[k] = q;
+                                                 v.contact_pair.x[k] = q * dx;
+                                                 v.contact_pair.y[k] = q * dy;
+                                             }
+                                         }
+                                     });
 }
 
 // Over a lattice that ends at a plate: sum of Q y / sum of Q^2 over one column of particles, where y is a particle's
@@ -164,7 +165,7 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
     const Walls &w = world.walls;
     const NeighborList &mirrors = world.mirrors.of_ghost;
     ViscousSystem &v = world.viscous;
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
             const Plate &plate = w.plates[w.ghost_plate[g]];
             Vector mean = Vector::Zero();
@@ -226,7 +227,7 @@ void find_ghost_forces(World &world, const VectorField &u) {
     const Walls &w = world.walls;
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
             const Plate &plate = w.plates[w.ghost_plate[g]];
             double fx = 0, fy = 0;

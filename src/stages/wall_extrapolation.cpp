@@ -109,7 +109,7 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
     const Particles &p = world.particles;
     const View view(world);
     const double horizon2 = world.constants.horizon * world.constants.horizon;
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Plate &plate = w.plates[w.ghost_plate[k]];
             const Segment &s = plate.segment();
@@ -165,7 +165,7 @@ template <bool Deviatoric> void extrapolate_stress(World &world) {
     const Constants &c = world.constants;
     const View view(world);
     const double inverse_moment = 1.0 / c.lattice.second_moment;
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Plate &plate = w.plates[w.ghost_plate[k]];
             const Vector &n = plate.segment().normal, &t = plate.segment().tangent;

@@ -88,12 +88,12 @@ WallState wall_state(const World &world, int64_t k) {
 // Evaluates the wall particles and hands on to the ghosts behind what `keep` has stored of them.
 template <class Keep> void for_each_wall_particle(World &world, const Keep &keep) {
     Walls &w = world.walls;
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k)
             if (w.wall_particle[k] == k)
                 keep(k, wall_state(world, k));
     });
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const int32_t from = w.wall_particle[k];
             if (from == k)
@@ -111,7 +111,7 @@ void ghost_velocity(World &world) {
     Walls &w = world.walls;
     const Particles &p = world.particles;
     const double inverse_radius = 1.0 / world.constants.interaction_radius;
-    for_each_block(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Plate &plate = w.plates[w.ghost_plate[k]];
             Vector ghost = plate.velocity();
