@@ -25,5 +25,6 @@ with granperi.Simulation(spacing=0.0025) as sim:
     print(granperi.__file__, sim.state.step)") || fail "Python"
 echo "Python: $said"
 case $said in "$prefix"*" 3") ;; *) fail "Python imports another granperi" ;; esac
-readelf -d "$prefix"/lib/python3/dist-packages/_granperi*.so | grep -E 'RPATH|RUNPATH' && fail "the extension has a run path"
+said=$(readelf -d "$prefix"/lib/python3/dist-packages/granperi/_granperi*.so) || fail "no extension"
+grep -E 'RPATH|RUNPATH' <<<"$said" && fail "the extension has a run path"
 echo "passed"
