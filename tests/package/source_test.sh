@@ -18,7 +18,7 @@ build() {
         ${FC:+-DCMAKE_Fortran_COMPILER="$FC" -DWITH_FORTRAN=ON} -DGRANPERI_SOURCE="$2" -DCONSUMERS="$consumers" \
         ${OPTIONS:-} "${@:4}" >"$work/log" 2>&1 || { cat "$work/log"; fail "$1: configuring"; }
     "$CMAKE" --build "$3" -j2 >"$work/log" 2>&1 || { tail -n 30 "$work/log"; fail "$1: building"; }
-    grep -i 'warning' "$work/log" && fail "$1 warns"
+    grep -i 'warning:' "$work/log" && fail "$1 warns"
     for program in shared static ${FC:+fortran}; do
         expect_run "$1, $program" "$3/$program"
     done
