@@ -7,6 +7,7 @@
 
 #include "check.hpp"
 #include "diagnostics.hpp"
+#include "entry.hpp"
 #include "error.hpp"
 #include "fields.hpp"
 #include "granperi/gp.h"
@@ -31,8 +32,9 @@ namespace {
 
 using namespace gp;
 
-// Runs body and turns what it throws into a status and a text.
+// Runs body, with the host's environment put aside, and turns what it throws into a status and a text.
 template <class Body> gp_status guard(const Body &body) noexcept {
+    const Entry entry;
     try {
         return body();
     } catch (const Error &error) {
@@ -207,6 +209,7 @@ gp_status gp_create(const gp_config *config, gp_sim **sim) {
 }
 
 void gp_destroy(gp_sim *sim) {
+    const Entry entry; // its output may have to be closed
     if (sim && !sim->sim.in_callback())
         delete sim;
 }

@@ -1,4 +1,4 @@
-// The only file that knows OpenMP.
+// The only file, with its .cpp, that knows OpenMP.
 //
 // Work is cut into blocks of a fixed number of items. Each block is done by one thread, sums are kept per block and
 // added in block order, so results do not depend on the number of threads.
@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
+
+#include "float_environment.hpp"
 
 #ifdef GP_WITH_OPENMP
 #include <omp.h>
@@ -42,6 +44,10 @@ inline int default_threads() {
 #endif
 }
 
+// False in a child that was forked after this library had used threads: GNU OpenMP waits for ever for those that fork left
+// behind. All of a child's work is then done by the thread that calls, with the same bits. Asked before each use.
+bool threads_survive();
+
 // Calls body(block, begin, end) for the blocks of n items. body must not throw: an exception cannot leave a parallel
 // region. The number of threads is passed to this region alone; the host's OpenMP settings are never changed.
 template <int64_t Size = block_size, class Body> void for_each_block(int threads, int64_t n, const Body &body) {
@@ -50,10 +56,14 @@ template <int64_t Size = block_size, class Body> void for_each_block(int threads
     // A thread with less than this to do costs more than it brings, above all where other programs want the processors.
     constexpr int64_t least_blocks = 8;
     const int useful = static_cast<int>(std::max<int64_t>(1, std::min<int64_t>(threads, blocks / least_blocks)));
-    if (useful > 1) {
-#pragma omp parallel for num_threads(useful) schedule(static)
-        for (int64_t block = 0; block < blocks; ++block)
-            body(block, block * Size, std::min(n, (block + 1) * Size));
+    if (useful > 1 && threads_survive()) {
+#pragma omp parallel num_threads(useful)
+        {
+            const UsualFloats floats;
+#pragma omp for schedule(static) nowait
+            for (int64_t block = 0; block < blocks; ++block)
+                body(block, block * Size, std::min(n, (block + 1) * Size));
+        }
         return;
     }
 #else

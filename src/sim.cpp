@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "check.hpp"
+#include "entry.hpp"
 #include "ledger.hpp"
 #include "stages/stages.hpp"
 #include "undo.hpp"
@@ -121,6 +122,7 @@ gp_status Sim::advance(gp_sim *handle, double t_end) {
     bool stop = false;
     if (callback_ && world_->clock.step % callback_every_ == 0) {
         const InCallback guard(in_callback_);
+        const BackToHost host;
         stop = callback_(callback_user_, handle) != 0;
     }
     if (lost_frame)
@@ -308,8 +310,10 @@ void Sim::set_log(gp_log callback, void *user) {
 }
 
 void Sim::log(int32_t level, const std::string &text) const {
-    if (log_)
+    if (log_) {
+        const BackToHost host;
         log_(log_user_, level, text.c_str());
+    }
 }
 
 void Sim::warn(const std::vector<std::string> &texts) const {

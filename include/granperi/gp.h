@@ -15,8 +15,11 @@
  *   - All input is copied: the caller may free its arrays when the call returns.
  *   - Distinct simulations may be used from distinct threads at the same time. One simulation belongs to one
  *     thread at a time.
- *   - After fork(), a child may only run simulations with threads = 1 if the parent has run any with more: GNU OpenMP
- *     does not survive a fork. Where other programs want the processors, use fewer threads or OMP_WAIT_POLICY=passive.
+ *   - After fork(), a child of a parent that has run simulations with several threads does its work in one, with the same
+ *     bits: GNU OpenMP does not survive a fork. Where other programs want the processors, use fewer threads or
+ *     OMP_WAIT_POLICY=passive.
+ *   - The host's floating-point environment (rounding, flush-to-zero, traps, flags) and locale have no effect on results,
+ *     files and messages; they are in force inside callbacks, and after a call as they were before.
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
  *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), saved (gp_save), written to its open output
  *     (gp_output_write) and driven (gp_set_plate_velocity). Every other call on it returns GP_E_STATE.

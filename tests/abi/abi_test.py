@@ -2,13 +2,15 @@
 """What compiled programs rely on: the header, the exported names, the layout of the structs.
 
 usage: abi_test.py CHECK --header GP_H --library LIBRARY [--work DIRECTORY] [--cc CC] [--cxx CXX] [--flags FLAGS]
-                   [--pinned FILE [--update]]
+                   [--pinned FILE [--update]] [--static LIBRARY --static-flags FLAGS] [--source DIRECTORY --source-flags FLAGS]
 
 CHECK is one of
   header   the header compiles alone in every language it is for, without a warning
   symbols  the library exports what the header declares and nothing else; its SONAME
-  link     a C program that uses every declared function links and runs
+  link     a C program that uses every declared function links and runs, with the shared library and, given --static, the static
   layout   sizes, offsets and constants are those of the file given by --pinned (--update writes it)
+  diff     abidiff finds no difference between the header and the dump given by --pinned (--update writes it), and, given
+           --source, the code and the header
 Exits with 77 where a check does not apply.
 """
 
@@ -16,6 +18,7 @@ import argparse
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -67,10 +70,17 @@ def check_header(arguments, header):
     strict = ["-pedantic-errors", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wundef", "-Werror", "-fsyntax-only"]
     c = write(arguments, "header.c", text + "int header_is_not_empty;\n")
     cxx = write(arguments, "header.cpp", text)
-    for standard in ("c99", "c11", "c17"):
-        compile_header(arguments.cc + ["-std=" + standard, "-Wstrict-prototypes"] + strict + [c])
-    for standard in ("c++11", "c++14", "c++17", "c++20"):
-        compile_header(arguments.cxx + ["-std=" + standard, "-Wold-style-cast"] + strict + [cxx])
+    compilers = [(arguments.cc, arguments.cxx)]
+    compilers += [([name], [other]) for name, other in (("gcc", "g++"), ("clang", "clang++"))
+                  if shutil.which(name) and shutil.which(other)]
+    checked = []
+    for cc, cxx_compiler in compilers:
+        for standard in ("c99", "c11", "c17"):
+            compile_header(cc + ["-std=" + standard, "-Wstrict-prototypes"] + strict + [c])
+        for standard in ("c++11", "c++14", "c++17", "c++20"):
+            compile_header(cxx_compiler + ["-std=" + standard, "-Wold-style-cast"] + strict + [cxx])
+        checked.append(run(cc + ["--version"]).stdout.split("\n")[0])
+    print("7 standards each:", "; ".join(checked))
     # Its macros keep to its own corner of the name space.
     for line in run(arguments.cc + ["-std=c99", "-dM", "-E", c]).stdout.splitlines():
         name = line.split()[1].split("(")[0]
@@ -119,14 +129,18 @@ def check_link(arguments, header):
     source = write(arguments, "link.c", text)
     program = os.path.join(arguments.work, "link")
     directory = os.path.dirname(arguments.library)
-    result = run(arguments.cc + ["-std=c99", "-Wall", "-Wextra", "-Werror"] + arguments.flags +
-                 [source, "-o", program, arguments.library, "-Wl,-rpath," + directory])
-    if result.returncode != 0:
-        return fail("link:", result.stdout)
-    result = run([program])
-    print(result.stdout, end="")
-    if result.returncode != 0 or "%d functions" % len(header.functions) not in result.stdout:
-        fail("the program returned", result.returncode, result.stdout)
+    ways = [("shared", [arguments.library, "-Wl,-rpath," + directory])]
+    if arguments.static:
+        ways.append(("static", [arguments.static] + arguments.static_flags))
+    for way, libraries in ways:
+        result = run(arguments.cc + ["-std=c99", "-Wall", "-Wextra", "-Werror"] + arguments.flags +
+                     [source, "-o", program] + libraries)
+        if result.returncode != 0:
+            return fail("link:", way, result.stdout)
+        result = run([program])
+        print(way + ":", result.stdout, end="")
+        if result.returncode != 0 or "%d functions" % len(header.functions) not in result.stdout:
+            fail("the program returned", result.returncode, result.stdout)
 
 
 def check_layout(arguments, header):
@@ -168,9 +182,65 @@ def check_layout(arguments, header):
         print("If this is meant, and no program is broken by it: abi_test.py layout --update")
 
 
+SONAME = "-Wl,-soname,libgranperi.so.0"
+
+
+def declared_library(arguments, header):
+    """A library that has every declared function, without code: what abidiff is to know of the header."""
+    text = "#define GP_BUILDING\n#include <granperi/gp.h>\n"
+    for _, declaration in header.functions:
+        text += declaration[len("GP_API "):-1] + " { __builtin_trap(); }\n"
+    write(arguments, "declared.c", text)
+    include = os.path.dirname(os.path.dirname(arguments.header))
+    # By relative names, for they are in the dump.
+    result = run(arguments.cc + ["-std=c99", "-w", "-g", "-O0", "-shared", "-fPIC", "-I", include, SONAME, "declared.c", "-o",
+                                 "libdeclared.so"], cwd=arguments.work)
+    if result.returncode != 0:
+        fail(result.stdout)
+    return os.path.join(arguments.work, "libdeclared.so")
+
+
+def compiled_library(arguments):
+    """The library's own interface with what debuggers know of it. Only its interface: the rest is left undefined."""
+    library = os.path.join(arguments.work, "libcompiled.so")
+    source = arguments.source
+    result = run(arguments.cxx + ["-std=c++17", "-w", "-g", "-O0", "-fPIC", "-shared", "-fvisibility=hidden", "-DGP_BUILDING",
+                                  SONAME, "-I", source + "/src", "-I", source + "/include",
+                                  "-Wl,--version-script=" + source + "/cmake/granperi.map"] + arguments.source_flags +
+                 [source + "/src/api.cpp", "-o", library])
+    if result.returncode != 0:
+        fail(result.stdout)
+    return library
+
+
+def check_diff(arguments, header):
+    if not shutil.which("abidiff") or not shutil.which("abidw"):
+        print("skipped: no abidiff (Debian: abigail-tools)")
+        sys.exit(77)
+    if run(arguments.cc + ["-dumpmachine"]).stdout.split("-")[0] != "x86_64":
+        print("skipped: the dump is of x86-64")
+        sys.exit(77)
+    declared = declared_library(arguments, header)
+    if arguments.update:
+        result = run(["abidw", "--no-comp-dir-path", "--no-corpus-path", "--no-show-locs", "--no-elf-needed", "--no-parameter-names",
+                      "--out-file", arguments.pinned, declared])
+        return fail(result.stdout) if result.returncode != 0 else None
+    result = run(["abidiff", arguments.pinned, declared])
+    if result.returncode != 0:
+        fail("the ABI is no longer that of", arguments.pinned, "(docs/abi.md says what may change)\n" + result.stdout)
+        print("If this is meant: ninja update_abi")
+    if arguments.source:
+        # gp_load has no prototype: in C it is a type.
+        result = run(["abidiff", "--headers-dir1", arguments.source + "/include", "--headers-dir2", arguments.source + "/include",
+                      "--drop-private-types", "--no-added-syms", declared, compiled_library(arguments)])
+        if result.returncode != 0:
+            fail("the code has another ABI than the header\n" + result.stdout)
+    print(len(header.functions), "functions as in the dump")
+
+
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
-    parser.add_argument("check", choices=["header", "symbols", "link", "layout"])
+    parser.add_argument("check", choices=["header", "symbols", "link", "layout", "diff"])
     parser.add_argument("--header", required=True, type=os.path.abspath)
     parser.add_argument("--library", type=os.path.abspath)
     parser.add_argument("--work", type=os.path.abspath, help="kept; else a directory that goes again")
@@ -178,13 +248,17 @@ def main():
     parser.add_argument("--cxx", default="c++", type=shlex.split)
     parser.add_argument("--flags", default="", type=shlex.split)
     parser.add_argument("--pinned")
+    parser.add_argument("--static", type=os.path.abspath)
+    parser.add_argument("--static-flags", default="", type=shlex.split)
+    parser.add_argument("--source", type=os.path.abspath)
+    parser.add_argument("--source-flags", default="", type=shlex.split)
     parser.add_argument("--update", action="store_true")
     arguments = parser.parse_args()
     scratch = tempfile.TemporaryDirectory()
     arguments.work = arguments.work or scratch.name
     os.makedirs(arguments.work, exist_ok=True)
     {"header": check_header, "symbols": check_symbols, "link": check_link,
-     "layout": check_layout}[arguments.check](arguments, Header(arguments.header))
+     "layout": check_layout, "diff": check_diff}[arguments.check](arguments, Header(arguments.header))
     return 1 if failures else 0
 
 
