@@ -20,6 +20,8 @@
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
  *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), saved (gp_save), written to its open output
  *     (gp_output_write) and driven (gp_set_plate_velocity). Every other call on it returns GP_E_STATE.
+ *   - Undefined, and not looked for: a simulation after its gp_destroy, one simulation in two threads at the same time, any
+ *     call from inside the log, pointers that do not point to what is said. NULL for a simulation is GP_E_ARGUMENT.
  *
  * References
  *   [1] Jin, Lu, Tai & Xu (2021), J. Fluid Mech. 917: peridynamics in a mesh-free method with the mu(I) rheology.
