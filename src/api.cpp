@@ -417,6 +417,8 @@ gp_status gp_save(gp_sim *sim, const char *path) {
     return guard([&]() -> gp_status {
         require_simulation(sim);
         require_pointer("path", path);
+        if (sim->sim.progress().started)
+            sim->sim.prepare();
         io::save_checkpoint(path, sim->sim, sim->output ? sim->output->position(sim->sim.world()) : sim->left_off);
         return GP_OK;
     });

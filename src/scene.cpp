@@ -201,14 +201,14 @@ int32_t Scene::add_column(const gp_column &c, std::string &note) {
     body.hydrostatic = c.initial_pressure == GP_INITIAL_HYDROSTATIC;
     reserve(body.count);
     const auto column_id = static_cast<int32_t>(bodies_.size());
-    for (double row = 0; row < rows; ++row)
-        for (double across = 0; across < columns; ++across) {
+    for (int64_t row = 0; row < static_cast<int64_t>(rows); ++row)
+        for (int64_t across = 0; across < static_cast<int64_t>(columns); ++across) {
             const auto counter = static_cast<uint64_t>(x.size());
             const double jitter = config_.jitter * spacing;
             const double dx = jitter > 0 ? jitter * hashed_uniform(config_.seed, 2 * counter) : 0.0;
             const double dy = jitter > 0 ? jitter * hashed_uniform(config_.seed, 2 * counter + 1) : 0.0;
-            x.push_back(c.x_min + (across + 0.5) * spacing + dx);
-            y.push_back(c.y_min + (row + 0.5) * spacing + dy);
+            x.push_back(c.x_min + (static_cast<double>(across) + 0.5) * spacing + dx);
+            y.push_back(c.y_min + (static_cast<double>(row) + 0.5) * spacing + dy);
             vx.push_back(c.vx);
             vy.push_back(c.vy);
             column.push_back(column_id);

@@ -73,6 +73,7 @@ std::vector<std::string> Sim::take_step() {
             std::vector<Piece> &pieces = world.pieces;
             const double time = world.clock.time;
             const int32_t depth = pieces.empty() ? 1 : pieces.back().depth + 1;
+            pieces.reserve(pieces.size() + 2);
             if (depth > most || !(time + 0.5 * dt > time))
                 throw;
             if (depth == 1)
@@ -82,6 +83,9 @@ std::vector<std::string> Sim::take_step() {
             ++world.retries;
             if (notes.empty())
                 notes = warnings_.of_retry(world, error.what());
+        } catch (...) { // out of memory
+            undo_step(world, UndoneOrder::as_it_is);
+            throw;
         }
     }
     const Clock &clock = world.clock;
@@ -99,8 +103,7 @@ gp_status Sim::advance(gp_sim *handle, double t_end) {
         diverged_ = error.status() == GP_E_DIVERGED;
         ++epoch_;
         throw;
-    } catch (...) { // out of memory inside a step leaves it half done
-        diverged_ = half_done_ = true;
+    } catch (...) { // out of memory: the step is undone and may be taken again
         ++epoch_;
         throw;
     }
@@ -109,24 +112,28 @@ gp_status Sim::advance(gp_sim *handle, double t_end) {
     if (t_end - clock.time < 1e-9 * clock.dt)
         clock.time = t_end;
     // An output that fails takes its frame with it, not the step: the callback sees that first.
-    std::exception_ptr lost_frame;
+    std::exception_ptr lost;
     try {
         if (sink)
             sink->step_done(*world_);
-    } catch (const Error &) {
-        lost_frame = std::current_exception();
+    } catch (...) {
+        lost = std::current_exception();
     }
-    warn(notes);
-    if (log_)
-        warn(warnings_.of_step(*world_));
+    try {
+        warn(notes);
+        if (log_)
+            warn(warnings_.of_step(*world_));
+    } catch (...) { // out of memory
+        lost = lost ? lost : std::current_exception();
+    }
     bool stop = false;
     if (callback_ && world_->clock.step % callback_every_ == 0) {
         const InCallback guard(in_callback_);
         const BackToHost host;
         stop = callback_(callback_user_, handle) != 0;
     }
-    if (lost_frame)
-        std::rethrow_exception(lost_frame);
+    if (lost)
+        std::rethrow_exception(lost);
     return stop ? GP_STOPPED : GP_OK;
 }
 
@@ -227,8 +234,14 @@ void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
 }
 
 void Sim::prepare() {
-    if (world_)
+    if (world_) {
+        if (!world_
+                 ->lists_whole) { // memory ran out in a step; readers need the cells, the next step makes its own lists
+            stages::make_lists(*world_);
+            world_->lists_valid = false;
+        }
         return;
+    }
     auto world = make_world(scene_);
     stages::measure_velocities(*world);
     stages::update_neighbors(*world);
@@ -249,9 +262,6 @@ void Sim::set_world(std::unique_ptr<World> world) {
 }
 
 Progress Sim::progress() const {
-    if (half_done_)
-        throw make_error(GP_E_STATE,
-                         "gp_save: the last step ran out of memory half-way; an earlier checkpoint is good");
     return {started_, diverged_, warnings_.told(), epoch_, wall_seconds_};
 }
 

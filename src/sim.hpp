@@ -50,9 +50,9 @@ public:
     void log(int32_t level, const std::string &text) const;
     void warn(const std::vector<std::string> &texts) const;
 
-    // Builds what the stages work on from the scene, if that is still to be done. Readers call it first.
+    // Builds what the stages work on from the scene, if that is still to be done, or what a step without memory has left
+    // unfinished. Readers call it first.
     void prepare();
-    // For a checkpoint: throws after a step that ran out of memory half-way.
     Progress progress() const;
     // Goes on from a checkpoint: world is that of this scene, NULL before the first step.
     void resume(std::unique_ptr<World> world, const Progress &progress);
@@ -81,7 +81,7 @@ private:
     std::unique_ptr<World> world_;
     Traits traits_{};
     std::vector<PlannedStage> stages_;
-    bool started_ = false, diverged_ = false, half_done_ = false, in_callback_ = false;
+    bool started_ = false, diverged_ = false, in_callback_ = false;
     Warnings warnings_;
     uint64_t epoch_ = 0;
     double wall_seconds_ = 0;

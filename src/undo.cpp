@@ -83,7 +83,7 @@ void keep_fields(World &world) {
     start.fields_kept = true;
 }
 
-void undo_step(World &world) {
+void undo_step(World &world, UndoneOrder order) {
     StepStart &start = world.step_start;
     if (start.fields_kept) {
         const auto changed = fields_changed_in_place(world);
@@ -100,11 +100,9 @@ void undo_step(World &world) {
                     world.images.copy(*field);
         }
     }
-    if (world.lists_new) {
+    const bool sorted = world.lists_new && start.fields_kept && !world.constants.period;
+    if (world.lists_new)
         world.lists_valid = false; // the plates are about to be where they were
-        if (start.fields_kept && !world.constants.period)
-            undo_sort(world);
-    }
     start.fields_kept = false;
     const double wound = world.ledger.wound; // positions that have returned into the period stay there
     world.clock = start.clock;
@@ -112,6 +110,8 @@ void undo_step(World &world) {
     world.ledger.wound = wound;
     world.walls.plates = start.plates;
     world.shifted = start.shifted;
+    if (sorted && order == UndoneOrder::before)
+        undo_sort(world); // last: it needs memory
 }
 
 } // namespace gp

@@ -17,7 +17,8 @@ void begin_step(World &world);
 void keep_fields(World &world);
 
 // Undoes all of the step that has begun: values, their order, and the plates. In a periodic scene positions that returned
-// into the period stay there, and the order is the new one.
-void undo_step(World &world);
+// into the period stay there, and the order is the new one; so it is with UndoneOrder::as_it_is, which needs no memory.
+enum class UndoneOrder { before, as_it_is };
+void undo_step(World &world, UndoneOrder order = UndoneOrder::before);
 
 } // namespace gp

@@ -524,22 +524,22 @@ module granperi_raw
         end function
 
         !> Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts
-        !> time. After GP_E_MEMORY inside a step the simulation can be read, not stepped; after GP_E_IO (of an output
-        !> that writes by itself) the step is complete, the frame is lost and the run may go on. A step is
-        !> GP_E_DIVERGED, and its text names stage, field, particle, position, time and step, where - a density, a
-        !> stress or an acceleration is not a finite number; - a density is negative or twice the material's own (a blow
-        !> as fast as sound makes it so); - in the step a particle would move by more than a spacing by its
-        !> acceleration, or against another particle or plate (this with a time_step; steps that the library chooses are
-        !> shortened instead); - the flow asks for steps below 1/128 of spacing / wave speed: speeds differ by 32 wave
-        !> speeds. At the first step this is GP_E_ARGUMENT: the sound_speed is wrong for the scene. It is found before
-        !> anything moves, and the step is undone: fields, their order, clock, energies, plates and loads have the bits
-        !> of the last good step. But in a periodic scene particles that have just returned into the period stay there
-        !> and the order is new, and GP_FIELD_NUMBER_DENSITY may differ by rounding. With gp_config.retry_halvings a
-        !> step that diverges is undone and taken as two steps of half its size, one after the other, each of which is
-        !> halved likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the
-        !> callback and the output, with GP_DT_RETRY in gp_state.dt_reason; what is undone nobody sees. After the two
-        !> halves the size is chosen as always. Speeds that ask for too small a step are not retried: the step begins
-        !> with them.
+        !> time. A step that GP_E_MEMORY stops is undone and may be taken again, to the same bits (the order of views
+        !> may be new); after GP_E_IO or GP_E_MEMORY of an output that writes by itself, or of the log's texts, the step
+        !> is complete, the frame or text is lost and the run may go on: gp_state.step tells. A step is GP_E_DIVERGED,
+        !> and its text names stage, field, particle, position, time and step, where - a density, a stress or an
+        !> acceleration is not a finite number; - a density is negative or twice the material's own (a blow as fast as
+        !> sound makes it so); - in the step a particle would move by more than a spacing by its acceleration, or
+        !> against another particle or plate (this with a time_step; steps that the library chooses are shortened
+        !> instead); - the flow asks for steps below 1/128 of spacing / wave speed: speeds differ by 32 wave speeds. At
+        !> the first step this is GP_E_ARGUMENT: the sound_speed is wrong for the scene. It is found before anything
+        !> moves, and the step is undone: fields, their order, clock, energies, plates and loads have the bits of the
+        !> last good step. But in a periodic scene particles that have just returned into the period stay there and the
+        !> order is new, and GP_FIELD_NUMBER_DENSITY may differ by rounding. With gp_config.retry_halvings a step that
+        !> diverges is undone and taken as two steps of half its size, one after the other, each of which is halved
+        !> likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the callback and
+        !> the output, with GP_DT_RETRY in gp_state.dt_reason; what is undone nobody sees. After the two halves the size
+        !> is chosen as always. Speeds that ask for too small a step are not retried: the step begins with them.
         function gp_step(sim, n) bind(c, name="gp_step") result(answer)
             import
             type(c_ptr), value :: sim
@@ -663,16 +663,16 @@ module granperi_raw
         !> again with gp_output.append = 1; the counters of gp_get_plan begin anew. gp_config.threads is saved: with 0
         !> it is the default of the new process. gp_save only reads: epoch and views stay as they are. It may be called
         !> before the first step, after GP_E_DIVERGED (what is loaded can be read and saved, too, not stepped) and
-        !> inside the callback, where the step is complete. After GP_E_MEMORY inside a step it is GP_E_STATE. The file
-        !> is written beside its place as <path>.part-<process>-<number>, synced and renamed: whatever happens, path is
-        !> the new checkpoint or the one before. A program that is killed may leave the part, to be deleted. After
-        !> GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or
-        !> be saved elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle. gp_load refuses
-        !> a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer
-        !> format: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;
-        !> another one may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED
-        !> in a build without HDF5. C has one name space for types and functions, and gp_load is also the type above:
-        !> hence a macro over the function gp_load_file (binaries also export it as gp_load).
+        !> inside the callback, where the step is complete. The file is written beside its place as
+        !> <path>.part-<process>-<number>, synced and renamed: whatever happens, path is the new checkpoint or the one
+        !> before. A program that is killed may leave the part, to be deleted. After GP_E_IO (disk full, no such
+        !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. Memory:
+        !> about twice the size of the file, 200 to 300 bytes per particle. gp_load refuses a file that is cut off,
+        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer format: GP_E_VERSION; *sim is
+        !> then NULL. A checkpoint is for the version of the library that wrote it; another one may load it, if it has
+        !> the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5. C has one
+        !> name space for types and functions, and gp_load is also the type above: hence a macro over the function
+        !> gp_load_file (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim

@@ -23,6 +23,8 @@
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
  *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), saved (gp_save), written to its open output
  *     (gp_output_write) and driven (gp_set_plate_velocity). Every other call on it returns GP_E_STATE.
+ *   - Undefined, and not looked for: a simulation after its gp_destroy, one simulation in two threads at the same time, any
+ *     call from inside the log, pointers that do not point to what is said. NULL for a simulation is GP_E_ARGUMENT.
  *
  * References
  *   [1] Jin, Lu, Tai & Xu (2021), J. Fluid Mech. 917: peridynamics in a mesh-free method with the mu(I) rheology.
@@ -276,9 +278,10 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
 
 /* ------------------------------------------------------------------------------------------------ running */
 
-/* Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts time. After
- * GP_E_MEMORY inside a step the simulation can be read, not stepped; after GP_E_IO (of an output that writes by itself) the
- * step is complete, the frame is lost and the run may go on.
+/* Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts time. A
+ * step that GP_E_MEMORY stops is undone and may be taken again, to the same bits (the order of views may be new); after
+ * GP_E_IO or GP_E_MEMORY of an output that writes by itself, or of the log's texts, the step is complete, the frame or text is
+ * lost and the run may go on: gp_state.step tells.
  *
  * A step is GP_E_DIVERGED, and its text names stage, field, particle, position, time and step, where
  *   - a density, a stress or an acceleration is not a finite number;
@@ -483,8 +486,8 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
  * gp_get_plan begin anew. gp_config.threads is saved: with 0 it is the default of the new process.
  *
  * gp_save only reads: epoch and views stay as they are. It may be called before the first step, after GP_E_DIVERGED (what is
- * loaded can be read and saved, too, not stepped) and inside the callback, where the step is complete. After GP_E_MEMORY inside
- * a step it is GP_E_STATE. The file is written beside its place as <path>.part-<process>-<number>, synced and renamed: whatever
+ * loaded can be read and saved, too, not stepped) and inside the callback, where the step is complete. The file
+ * is written beside its place as <path>.part-<process>-<number>, synced and renamed: whatever
  * happens, path is the new checkpoint or the one before. A program that is killed may leave the part, to be deleted. After
  * GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or be saved
  * elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle.

@@ -32,9 +32,10 @@ struct FrameFile::Impl : Hdf5Writer {
     std::string side_path;
     int64_t count = 0, frames = 0;
     int compression = 0;
-    bool single = false, is_open = false; // open: the files on the disk are ours
-    const char *suffix = "";              // of the files until they are published
-    int replaced_fd = -1;                 // of the XDMF file that will be replaced: holds its lock
+    bool single = false, is_open = false;  // open: the files on the disk are ours
+    const char *suffix = "";               // of the files until they are published
+    std::string file_name, side_file_name; // with it
+    int replaced_fd = -1;                  // of the XDMF file that will be replaced: holds its lock
     std::vector<Element> elements;
     std::vector<double> packed;
 
@@ -48,9 +49,9 @@ struct FrameFile::Impl : Hdf5Writer {
         if (store.fd >= 0)
             ::close(store.fd);
         release_replaced();
-        if (*suffix != '\0' && !side_path.empty()) { // never published
-            ::unlink((path + suffix).c_str());
-            ::unlink((side_path + suffix).c_str());
+        if (*suffix != '\0' && !side_file_name.empty()) { // never published
+            ::unlink(file_name.c_str());
+            ::unlink(side_file_name.c_str());
         }
     }
 
@@ -65,7 +66,7 @@ struct FrameFile::Impl : Hdf5Writer {
         struct stat status;
         const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (fd < 0)
-            throw io_failure(name, "create the file", errno_text(errno));
+            throw io_failure(name, "create the file", errno);
         if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode))
             return fd;
         ::close(fd);
@@ -84,10 +85,10 @@ struct FrameFile::Impl : Hdf5Writer {
 
     void open_files() {
         check_version();
-        const std::filesystem::path name(path);
-        if (!name.has_filename())
+        const std::filesystem::path given(path);
+        if (!given.has_filename())
             throw io_failure(path, "create the file", "the path names no file");
-        side_path = std::filesystem::path(name).replace_extension(".xdmf").string();
+        side_path = std::filesystem::path(given).replace_extension(".xdmf").string();
         if (side_path == path)
             throw io_failure(path, "create the file", "the extension .xdmf is for the file beside it");
         const char *const locked = "another output is writing to it";
@@ -96,13 +97,16 @@ struct FrameFile::Impl : Hdf5Writer {
             if (replaced_fd >= 0 && !lock(replaced_fd, side_path))
                 throw io_failure(path, "continue the file", locked);
         }
-        store.fd = open_file(path + suffix);
-        const int side_fd = open_file(side_path + suffix);
-        side.start(side_fd, replaceable_path(side_path + suffix), name.filename().string(), count, single);
-        if (!lock(side_fd, side_path + suffix))
+        file_name = path + suffix;
+        side_file_name = side_path + suffix;
+        store.fd = open_file(file_name);
+        const int side_fd = open_file(side_file_name);
+        side.own(side_fd);
+        side.start(replaceable_path(side_file_name), given.filename().string(), count, single);
+        if (!lock(side_fd, side_file_name))
             throw io_failure(path, "create the file", locked);
         if (::ftruncate(store.fd, 0) != 0 || ::ftruncate(side_fd, 0) != 0)
-            throw io_failure(path, "empty the file", errno_text(errno));
+            throw io_failure(path, "empty the file", errno);
         is_open = true;
     }
 
@@ -110,7 +114,7 @@ struct FrameFile::Impl : Hdf5Writer {
         const bool good = H5Fflush(file, H5F_SCOPE_LOCAL) >= 0;
         if (good || store.error != 0)
             if (const int error = store.commit())
-                throw io_failure(path, what, errno_text(error));
+                throw io_failure(path, what, error);
         check(good ? 0 : -1, what);
     }
 
@@ -157,9 +161,9 @@ struct FrameFile::Impl : Hdf5Writer {
             error = errno;
         const int side_error = side.close();
         if (error != 0)
-            throw io_failure(path, "close the file", good ? errno_text(error) : hdf5_text());
+            throw good ? io_failure(path, "close the file", error) : hdf5_failure(path, "close the file");
         if (side_error != 0)
-            throw io_failure(side_path, "close the file", errno_text(side_error));
+            throw io_failure(side_path, "close the file", side_error);
     }
 
     // ---------------------------------------------------------------------------------------------------- layout
@@ -393,18 +397,18 @@ struct FrameFile::Impl : Hdf5Writer {
     // The XDMF file first: it lists frames that the HDF5 file has before and after.
     void publish() {
         if (::fsync(store.fd) != 0)
-            throw io_failure(path, "sync the file", errno_text(errno));
+            throw io_failure(path, "sync the file", errno);
         const std::string side_target = replaceable_path(side_path);
-        move_into_place(side_path + suffix, side_target);
+        move_into_place(side_file_name, side_target);
         side.renamed(side_target);
-        move_into_place(path + suffix, replaceable_path(path));
+        move_into_place(file_name, replaceable_path(path));
         suffix = "";
         release_replaced();
     }
 
     void write_side() {
         if (const int error = side.write())
-            throw io_failure(side_path, "write the file", errno_text(error));
+            throw io_failure(side_path, "write the file", error);
     }
 
     // How many pointers to values the constant fields have, or the others.

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -21,6 +23,7 @@ namespace gp::io {
 class Session {
 public:
     Session() {
+        errno = 0;
         hbool_t safe = false;
         // Two simulations could meet inside an HDF5 without thread safety. One with it has its own lock, which the
         // host may hold already when it calls us: a second lock could then block both.
@@ -95,12 +98,32 @@ inline std::string hdf5_text() {
     return text[0] != '\0' ? text : "HDF5 gives no reason";
 }
 
-inline std::string errno_text(int number) {
-    return std::generic_category().message(number);
+// Whether HDF5 failed for want of memory, as malloc or its messages tell: without memory it may have lost these.
+inline bool hdf5_lacks_memory() {
+    bool lacks = errno == ENOMEM;
+    const auto look = [](unsigned, const H5E_error2_t *error, void *data) -> herr_t {
+        const char *const text = error->desc != nullptr ? error->desc : "";
+        if (error->min_num == H5E_NOSPACE || std::strstr(text, "memory alloc") != nullptr)
+            *static_cast<bool *>(data) = true;
+        return 0;
+    };
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &lacks);
+    return lacks;
 }
 
-inline Error io_failure(const std::string &of, const std::string &what, const std::string &why) {
-    return make_error(GP_E_IO, "%s: cannot %s: %s", of.c_str(), what.c_str(), why.c_str());
+inline Error io_failure(const std::string &of, const std::string &what, const std::string &why,
+                        gp_status status = GP_E_IO) {
+    return make_error(status, "%s: cannot %s: %s", of.c_str(), what.c_str(), why.c_str());
+}
+
+// number: an errno.
+inline Error io_failure(const std::string &of, const std::string &what, int number) {
+    return io_failure(of, what, std::generic_category().message(number), number == ENOMEM ? GP_E_MEMORY : GP_E_IO);
+}
+
+inline Error hdf5_failure(const std::string &of, const std::string &what) {
+    const bool lacks = hdf5_lacks_memory(); // first: errno
+    return io_failure(of, what, hdf5_text(), lacks ? GP_E_MEMORY : GP_E_IO);
 }
 
 // The calls that make the objects of one file.
@@ -123,7 +146,7 @@ struct Hdf5Writer {
 
     template <class T> T check(T result, const std::string &what) const {
         if (result < 0)
-            throw io_failure(path, what, hdf5_text());
+            throw hdf5_failure(path, what);
         return result;
     }
 

@@ -17,7 +17,8 @@ namespace gp::io {
 namespace {
 
 [[noreturn]] void fail(const std::string &path, const char *what, int number) {
-    throw make_error(GP_E_IO, "%s: cannot %s: %s", path.c_str(), what, std::generic_category().message(number).c_str());
+    throw make_error(number == ENOMEM ? GP_E_MEMORY : GP_E_IO, "%s: cannot %s: %s", path.c_str(), what,
+                     std::generic_category().message(number).c_str());
 }
 
 // Owns a file descriptor.
@@ -54,12 +55,12 @@ int open_part(const std::string &path, PartFile &part) {
     const std::size_t name = path.rfind('/') + 1; // 0 without a directory
     for (int attempt = 0; attempt < 1000; ++attempt) {
         // The longest name that file systems take is 255 bytes.
-        const std::string candidate =
+        std::string candidate =
             path.substr(0, name) + path.substr(name, 200) +
             format_text(".part-%ld-%u", static_cast<long>(::getpid()), static_cast<unsigned>(counter++));
         const int fd = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (fd >= 0) {
-            part.path = candidate;
+            part.path = std::move(candidate);
             return fd;
         }
         if (errno != EEXIST)
@@ -73,9 +74,13 @@ void rename_file(const std::string &from, const std::string &path) {
         fail(path, "rename the new file into its place", errno);
 }
 
+// Opened before the rename, after which nothing else may fail.
+int open_directory(const std::string &path) {
+    return ::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
 // Some file systems cannot sync a directory, and some directories may be written but not read: the file is there.
-void sync_directory(const std::string &path) {
-    const Descriptor directory(::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+void sync_directory(const Descriptor &directory, const std::string &path) {
     if (directory >= 0 && ::fsync(directory) != 0 && errno != EINVAL && errno != ENOTSUP)
         fail(path, "sync its directory", errno);
 }
@@ -135,8 +140,9 @@ std::string replaceable_path(const std::string &path) {
 }
 
 void move_into_place(const std::string &from, const std::string &path) {
+    const Descriptor directory(open_directory(path));
     rename_file(from, path);
-    sync_directory(path);
+    sync_directory(directory, path);
 }
 
 void replace_file(const std::string &path, const unsigned char *bytes, std::size_t size) {
@@ -149,9 +155,10 @@ void replace_file(const std::string &path, const unsigned char *bytes, std::size
         fail(path, "sync the file", errno);
     if (!file.close())
         fail(path, "close the file", errno);
+    const Descriptor directory(open_directory(target));
     rename_file(part.path, target);
     part.kept = true;
-    sync_directory(target);
+    sync_directory(directory, target);
 }
 
 void require_regular_file(const std::string &path) {

@@ -56,9 +56,11 @@ public:
             ::close(fd_);
     }
 
-    // fd: of the file, with the lock; it is closed by this object. hdf5_name: of the HDF5 file, in the same directory.
-    void start(int fd, const std::string &path, const std::string &hdf5_name, int64_t count, bool single_precision) {
-        fd_ = fd;
+    // fd: of the file, with the lock; it is closed by this object.
+    void own(int fd) { fd_ = fd; }
+
+    // hdf5_name: of the HDF5 file, in the same directory.
+    void start(const std::string &path, const std::string &hdf5_name, int64_t count, bool single_precision) {
         path_ = path;
         hdf5_name_ = xml_text(hdf5_name);
         count_ = count;

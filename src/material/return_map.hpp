@@ -15,7 +15,8 @@ using Deviator = DeviatorOf<double>;
 GP_INLINE double equivalent_stress(const Deviator &s) {
     return root(s.xx * s.xx + s.xy * s.xy);
 }
-GP_INLINE Lanes equivalent_stress(const DeviatorOf<Lanes> &s) {
+template <class Number>
+GP_INLINE Number equivalent_stress(const DeviatorOf<Number> &s) { // of Lanes: {a, b} is the first
     return root(s.xx * s.xx + s.xy * s.xy);
 }
 

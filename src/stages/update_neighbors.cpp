@@ -59,6 +59,7 @@ void make_lists(World &world) {
     const double radius = c.reach + world.skin;
     const double close = world.scene->config().collision_distance * c.spacing + world.skin;
     const double tolerance = 1e-9 * c.spacing;
+    world.lists_whole = world.lists_valid = false;
     world.grid.sort(world.particles, cell_width * c.spacing, cell_height * c.spacing, world.threads);
     const Particles &p = world.particles;
     ListOrigin &origin = world.list_origin;
@@ -83,7 +84,7 @@ void make_lists(World &world) {
     if (c.scheme == Scheme::implicit)
         world.mirrors.find(world.walls, world.particles, world.grid, world.images,
                            mirror_reach * c.spacing + world.skin);
-    world.lists_valid = world.lists_new = true;
+    world.lists_valid = world.lists_new = world.lists_whole = true;
     world.listed.clear();
 }
 
