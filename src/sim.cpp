@@ -234,12 +234,11 @@ void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
 }
 
 void Sim::prepare() {
-    if (world_) {
-        if (!world_
-                 ->lists_whole) { // memory ran out in a step; readers need the cells, the next step makes its own lists
-            stages::make_lists(*world_);
-            world_->lists_valid = false;
-        }
+    if (world_ && world_->lists_whole)
+        return;
+    if (world_) { // memory ran out in a step; readers need the cells, the next step makes its own lists
+        stages::make_lists(*world_);
+        world_->lists_valid = false;
         return;
     }
     auto world = make_world(scene_);

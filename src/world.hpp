@@ -111,7 +111,7 @@ struct World {
 
     // Neighbour lists are good while particles (and plates) have moved by less than the skin against each other.
     bool lists_valid = false;
-    bool lists_new = false; // made in the present step: it has sorted the particles
+    bool lists_new = false;  // made in the present step: it has sorted the particles
     bool lists_whole = true; // false: memory ran out while they were made
     ListOrigin list_origin;
     Field<int32_t> listed;    // particle of each place in the lists and cells, where a sort was undone; empty: the same

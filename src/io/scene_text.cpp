@@ -11,9 +11,7 @@ namespace {
 class Object {
 public:
     explicit Object(std::string &text) : text_(text) { text_ += '{'; }
-    Object(const Object &) = delete;
-    Object &operator=(const Object &) = delete;
-    ~Object() { text_ += '}'; }
+    void end() { text_ += '}'; } // not in a destructor: it needs memory
 
     void key(const char *name) {
         text_ += format_text("%s\"%s\": ", first_ ? "" : ", ", name);
@@ -49,6 +47,7 @@ void add_material(std::string &text, const gp_material &m) {
     object.value("mu_s", m.mu_s);
     object.value("mu_2", m.mu_2);
     object.value("i0", m.i0);
+    object.end();
 }
 
 void add_plate(std::string &text, const PlateSpec &p) {
@@ -68,6 +67,7 @@ void add_plate(std::string &text, const PlateSpec &p) {
     }
     object.value("normal_pressure", p.load);
     object.value("mass_per_length", p.mass);
+    object.end();
 }
 
 template <class Items, class Add> void add_list(std::string &text, const Items &items, const Add &add) {
@@ -85,20 +85,18 @@ template <class Items, class Add> void add_list(std::string &text, const Items &
 
 std::string scene_text(const Scene &scene) {
     std::string text;
-    {
-        Object all(text);
-        all.key("config");
-        {
-            Object config(text);
-            exchange_config(config, scene.config());
-        }
-        all.key("materials");
-        add_list(text, scene.materials(), add_material);
-        all.key("columns");
-        add_list(text, scene.bodies(), [](std::string &to, const Body &body) { to += std::to_string(body.material); });
-        all.key("plates");
-        add_list(text, scene.plates(), add_plate);
-    }
+    Object all(text);
+    all.key("config");
+    Object config(text);
+    exchange_config(config, scene.config());
+    config.end();
+    all.key("materials");
+    add_list(text, scene.materials(), add_material);
+    all.key("columns");
+    add_list(text, scene.bodies(), [](std::string &to, const Body &body) { to += std::to_string(body.material); });
+    all.key("plates");
+    add_list(text, scene.plates(), add_plate);
+    all.end();
     return text;
 }
 
