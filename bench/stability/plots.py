@@ -135,7 +135,8 @@ def drift(path: Path, results: Collection) -> bool:
     for s in runs.SCHEMES.values():
         rests = runs.rests_of(s)
         for rest, shade in zip(rests, _shades(COLORS[s.key], len(rests))):
-            label, line = rest.label, "-" if rest.resolution == 16 else "--"
+            label = rest.label if rest.resolution == 16 else f"{rest.label}, L/dl = {rest.resolution}"
+            line = "-" if rest.resolution == 16 else "--"
             result = results(rest.run)
             if not result:
                 continue

@@ -234,7 +234,6 @@ class Rest:
     @property
     def label(self) -> str:
         parts = [self.scheme.label, f"cfl {self.cfl:g}"]
-        parts += [f"L/dl = {self.resolution}"] if self.resolution != 16 else []
         parts += [f"delta {self.delta:g}"] if self.scheme.drift_deltas else []
         return ", ".join(parts)
 

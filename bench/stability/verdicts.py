@@ -85,13 +85,12 @@ def in_short(results: Collection) -> list[str]:
             f"surface, and makes no energy up to steps {100 * min(bounded):+.0f} to {100 * max(bounded):+.0f} % off that of "
             "the interior."
         )
-    for scheme, cfl, resolution in (("default", 0.8, 16), ("default", 0.8, 32), ("paper", 0.2, 16)):
-        result = results(runs.drift(scheme, cfl, resolution)) if resolution == 16 else results(runs.drift_fine())
-        if result:
+    for rest in [rest for s in runs.SCHEMES.values() for rest in runs.rests_of(s) if rest.cfl == s.own_cfl]:
+        result = results(rest.run)
+        if result and rest.scheme.key != "local":
             lines.append(
-                f"At rest, {runs.SCHEMES[scheme].label} scheme, L/dl = {resolution}: from {runs.DRIFT_FROM:g} to "
-                f"{runs.SCHEMES[scheme].drift_end:g} s no particle moves by more than "
-                f"{significant(result.tables['series']['drift'][-1], 2)} dl ({result.cpu:.0f} CPU s)."
+                f"At rest, {rest.label}, L/dl = {rest.resolution}: from {runs.DRIFT_FROM:g} to {rest.scheme.drift_end:g} s no "
+                f"particle moves by more than {significant(result.tables['series']['drift'][-1], 2)} dl ({result.cpu:.0f} CPU s)."
             )
     return lines
 
