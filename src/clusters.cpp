@@ -1,7 +1,6 @@
 #include "clusters.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 
 #include "lanes.hpp"
@@ -187,7 +186,8 @@ void find_clusters(const Particles &p, const CellGrid &grid, const Images &image
             });
             list.close_stop[c] = row.close - list.index.data();
             list.stop[c] = list.close_stop[c] + (row_end - row.others);
-            std::memmove(row.close, row.others, static_cast<std::size_t>(row_end - row.others) * sizeof(int32_t));
+            if (row.close < row.others) // not where the row is full, or nothing at all
+                std::copy(row.others, row_end, row.close);
             if (!barriers.empty())
                 list.partly_seen[c] = look_through(p, barriers, tolerance, c, list);
         }
