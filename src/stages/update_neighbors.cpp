@@ -41,7 +41,8 @@ constexpr double mirror_reach = 1.5;
 
 void update_neighbors(World &world) {
     const Constants &c = world.constants;
-    const double shift = world.velocity_span * world.clock.dt;
+    // Before the first step nothing has moved, at whatever speed: that may be infinite, which the first step refuses.
+    const double shift = world.clock.dt > 0 ? world.velocity_span * world.clock.dt : 0.0;
     // The collisions at the end of this step read the lists too: its own shift counts beforehand.
     if (world.lists_valid && world.shifted + shift <= world.skin)
         return;
