@@ -2,16 +2,14 @@
 holds it. Nothing here asserts a time."""
 from __future__ import annotations
 
-import argparse
 import math
-import shutil
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 
-from smoke import call  # first: skips where NumPy is missing
+from smoke import Workplace  # first: skips where NumPy is missing
 
 import numpy as np
 
@@ -59,47 +57,27 @@ def check_feature(idle: results.Result, used: results.Result) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=Path, required=True)
-    parser.add_argument("--work", type=Path, required=True)
-    arguments = parser.parse_args()
-    shutil.rmtree(arguments.work, ignore_errors=True)
-    found, docs = arguments.work / "results", arguments.work / "docs"
-    docs.mkdir(parents=True)
+    place = Workplace.asked_for(HERE, __doc__)
     check_measures()
 
     coarse, fine = runs.collapse("a1.25", 8), runs.collapse("a1.25", 16)
     idle, used = runs.feature("coulomb", "idle"), runs.feature("coulomb")
     small, machine = runs.growth(runs.GROWTH[0]), runs.machine()
     for run in (coarse, fine, idle, used, small, machine):
-        runner = (
-            sys.executable,
-            HERE / "runner.py",
-            "--build",
-            arguments.build,
-            "--results",
-            found,
-            "--only",
-            run.name,
-        )
-        if not results.load(run, found):
-            call(*runner)
-        assert results.load(run, found), f"{run.name} has no result"
-    assert "0 to do" in call(*runner), "a run that has its result is not run again"
-    collection = results.Collection(found)
-    check_collapse(results.load(coarse, found), results.load(fine, found), collection)
-    check_feature(results.load(idle, found), results.load(used, found))
-    assert results.load(small, found).summary["particles"] == 13 * 8
+        if not results.load(run, place.found):
+            place.run(run.name)
+        assert results.load(run, place.found), f"{run.name} has no result"
+    assert "0 to do" in place.run(run.name), "a run that has its result is not run again"
+    collection = results.Collection(place.found)
+    check_collapse(results.load(coarse, place.found), results.load(fine, place.found), collection)
+    check_feature(results.load(idle, place.found), results.load(used, place.found))
+    assert results.load(small, place.found).summary["particles"] == 13 * 8
 
-    call(sys.executable, HERE / "report.py", "--results", found, "--docs", docs)
-    report = (docs / "performance.md").read_text(encoding="utf-8")
+    report, images = place.report("performance.md")
     peak = measures.reference(collection, "a1.25").value["peak"] / runs.SCENES["a1.25"].length
     assert f"{peak:.3f} ±" in report, "the table of converged solutions has the peak"
     assert "holds 0 bytes" in report and "Missing runs" in report and " nan" not in report.lower()
-    images = sorted(path.name for path in (docs / "images").iterdir())
     assert images == ["performance_collapse.png", "performance_growth.png"], images
-    for name in images:
-        assert f"images/{name}" in report, f"{name} is not shown"
     names = [one.name for one in cheapest_first(runs.studies())]
     assert len(names) == len(set(names)) and all("/" not in name for name in names)
 

@@ -1,16 +1,14 @@
 """Runs coarse trials through the runner and the report: what comes out is physics, and the report holds it."""
 from __future__ import annotations
 
-import argparse
 import math
-import shutil
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 
-from smoke import call  # first: skips where NumPy is missing
+from smoke import Workplace  # first: skips where NumPy is missing
 
 import numpy as np
 
@@ -54,32 +52,21 @@ def check_mode(result: results.Result, penalty: float) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=Path, required=True)
-    parser.add_argument("--work", type=Path, required=True)
-    arguments = parser.parse_args()
-    shutil.rmtree(arguments.work, ignore_errors=True)
-    found, docs = arguments.work / "results", arguments.work / "docs"
-    docs.mkdir(parents=True)
+    place = Workplace.asked_for(HERE, __doc__)
     check_theory()
 
     ensemble, mode = runs.resolution_run(8), runs.mode("checkerboard", 0.1)
     for run in (ensemble, mode):
-        runner = (sys.executable, HERE / "runner.py", "--build", arguments.build, "--results", found, "--only", run.name)
-        call(*runner)
-        assert "0 to do" in call(*runner), "a run that has its result is not run again"
-    check_ensemble(results.load(ensemble, found))
-    check_mode(results.load(mode, found), 0.1)
+        place.run(run.name)
+        assert "0 to do" in place.run(run.name), "a run that has its result is not run again"
+    check_ensemble(results.load(ensemble, place.found))
+    check_mode(results.load(mode, place.found), 0.1)
 
-    call(sys.executable, HERE / "report.py", "--results", found, "--docs", docs)
-    report = (docs / "stability.md").read_text(encoding="utf-8")
-    peak = measures.mean(results.load(ensemble, found), "peak").value / runs.WIDTH
+    report, images = place.report("stability.md")
+    peak = measures.mean(results.load(ensemble, place.found), "peak").value / runs.WIDTH
     assert f"{peak:.3f} ±" in report, "the resolution table has the peak"
     assert "Missing runs" in report and " nan" not in report.lower()
-    images = sorted(path.name for path in (docs / "images").iterdir())
     assert images == ["stability_modes.png", "stability_resolution.png"], images
-    for name in images:
-        assert f"images/{name}" in report, f"{name} is not shown"
     names = [one.name for one in cheapest_first(runs.studies())]
     assert len(names) == len(set(names)) and all("/" not in name for name in names)
     for c in COEFFICIENTS:

@@ -1,15 +1,13 @@
 """Runs the coarsest scenes through the runner and the report: what comes out is physics, and the report holds it."""
 from __future__ import annotations
 
-import argparse
-import shutil
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 
-from smoke import call  # first: skips where NumPy is missing
+from smoke import Workplace  # first: skips where NumPy is missing
 
 import numpy as np
 
@@ -38,30 +36,19 @@ def check_result(result: results.Result) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=Path, required=True)
-    parser.add_argument("--work", type=Path, required=True)
-    arguments = parser.parse_args()
-    shutil.rmtree(arguments.work, ignore_errors=True)
-    found, docs = arguments.work / "results", arguments.work / "docs"
-    docs.mkdir(parents=True)
+    place = Workplace.asked_for(HERE, __doc__)
 
     run = runs.resolution_run("default", 16)
-    runner = (sys.executable, HERE / "runner.py", "--build", arguments.build, "--results", found, "--only", run.name)
-    call(*runner)
-    result = results.load(run, found)
+    place.run(run.name)
+    result = results.load(run, place.found)
     assert result is not None
     check_result(result)
-    assert "0 to do" in call(*runner), "a run that has its result is not run again"
+    assert "0 to do" in place.run(run.name), "a run that has its result is not run again"
 
-    call(sys.executable, HERE / "report.py", "--results", found, "--docs", docs)
-    report = (docs / "validation.md").read_text(encoding="utf-8")
+    report, images = place.report("validation.md")
     assert f"{measures.peak(result):.3f} (" in report, "the resolution table has the peak"
     assert "Missing runs" in report and "nan" not in report.lower().replace("finance", "")
-    images = sorted(path.name for path in (docs / "images").iterdir())
     assert "validation_resolution.png" in images, images
-    for name in images:
-        assert f"images/{name}" in report, f"{name} is not shown"
     names = [one.name for one in runs.all_runs()]
     assert len(names) == len(set(names)) and all("/" not in name for name in names)
 
