@@ -29,6 +29,7 @@ namespace {
 // ------------------------------------------------------------------------------------------------------- saving
 
 void write_scene(CheckpointWriter &file, const Scene &scene) {
+    file.group("/config");
     exchange_config(file, scene.config());
     MaterialTable materials;
     for (const gp_material &m : scene.materials()) {
@@ -430,6 +431,7 @@ OutputPosition read_position(CheckpointReader &file, const Checker &check) {
 void read_all(CheckpointReader &file, const std::function<Sim &(const gp_config &)> &create, OutputPosition &position) {
     const Checker check(file);
     gp_config config = default_config(GP_PRESET_DEFAULT);
+    file.group("/config");
     exchange_config(file, config);
     Sim &sim = create(config);
     read_materials(file, check, sim);

@@ -13,7 +13,6 @@ template <class File, class Config> void exchange_config(File &file, Config &con
            preset, bulk_viscosity, implicit_tolerance, implicit_iterations, allow_unstable_step, retry_halvings] =
         config;
     (void)struct_size;
-    file.group("/config");
     file.value("spacing", spacing);
     file.value("gravity_x", gravity_x);
     file.value("gravity_y", gravity_y);

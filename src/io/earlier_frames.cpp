@@ -105,15 +105,22 @@ struct EarlierFrames::Impl : Hdf5Writer {
             refuse(name + " has another shape");
     }
 
+    // One frame of a dataset; rest: its extent but for the frames.
+    void read_frame(hid_t dataset, hsize_t frame, const std::vector<hsize_t> &rest, double *to,
+                    const std::string &what) const {
+        std::vector<hsize_t> start(rest.size() + 1, 0), slab = rest;
+        start[0] = frame;
+        slab.insert(slab.begin(), 1);
+        const Id place = own(H5Dget_space(dataset), what), memory = space(slab, slab);
+        check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, slab.data(), nullptr), what);
+        check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, to), what);
+    }
+
     void read_observables(hsize_t frame, std::vector<double> &values) const {
         values.resize(observable_count);
-        if (values.empty())
-            return;
-        const std::string what = "read the observables of frame " + std::to_string(frame);
-        const hsize_t start[2] = {frame, 0}, slab[2] = {1, observable_count};
-        const Id place = own(H5Dget_space(observables), what), memory = space({1, slab[1]}, {1, slab[1]});
-        check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start, nullptr, slab, nullptr), what);
-        check(H5Dread(observables, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, values.data()), what);
+        if (!values.empty())
+            read_frame(observables, frame, {observable_count}, values.data(),
+                       "read frame " + std::to_string(frame) + " of the observables");
     }
 
     void read(hsize_t frame, std::vector<std::vector<double>> &components) const {
@@ -121,17 +128,9 @@ struct EarlierFrames::Impl : Hdf5Writer {
         for (const Element &element : elements) {
             const std::size_t n = static_cast<std::size_t>(count), width = element.components == 1 ? 1 : 3;
             packed.resize(n * width);
-            std::vector<hsize_t> start{frame, 0}, slab{1, n};
-            if (width == 3) {
-                start.push_back(0);
-                slab.push_back(3);
-            }
-            if (n > 0) {
-                const std::string what = "read frame " + std::to_string(frame) + " of " + element.name;
-                const Id place = own(H5Dget_space(element.value), what), memory = space(slab, slab);
-                check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, slab.data(), nullptr), what);
-                check(H5Dread(element.value, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, packed.data()), what);
-            }
+            if (n > 0)
+                read_frame(element.value, frame, width == 1 ? std::vector<hsize_t>{n} : std::vector<hsize_t>{n, width},
+                           packed.data(), "read frame " + std::to_string(frame) + " of " + element.name);
             for (int c = 0; c < element.components; ++c, ++next) {
                 next->resize(n);
                 for (std::size_t k = 0; k < n; ++k)

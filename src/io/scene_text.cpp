@@ -32,7 +32,6 @@ public:
             text_ += format_text("%s%.17g", k > 0 ? ", " : "", numbers[k]);
         text_ += ']';
     }
-    static void group(const char *) {} // of config_names.hpp: this object is it
 
 private:
     std::string &text_;

@@ -1,4 +1,6 @@
 """What the tests share. They run against the package of the build tree: PYTHONPATH=<build>/python."""
+import dataclasses
+import math
 import os
 import subprocess
 import sys
@@ -49,3 +51,9 @@ def python():
 
 needs_hdf5 = pytest.mark.skipif(not granperi.has_feature("hdf5"), reason="the library has no HDF5")
 needs_openmp = pytest.mark.skipif(not granperi.has_feature("openmp"), reason="the library has no threads")
+
+
+def assert_same_state(kept, live):
+    """All but the wall-clock time, which a file does not keep."""
+    assert math.isnan(kept.wall_seconds)
+    assert dataclasses.replace(kept, wall_seconds=0) == dataclasses.replace(live, wall_seconds=0)

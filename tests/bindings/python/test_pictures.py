@@ -1,12 +1,10 @@
 """Pictures and animations, of a live simulation and of a result file alike."""
-import dataclasses
-import math
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from conftest import needs_hdf5
+from conftest import assert_same_state, needs_hdf5
 
 import granperi
 import granperi.plot as plot
@@ -52,12 +50,6 @@ def test_field_maps_have_real_units_and_a_bar(source, name, tmp_path):
     labels = [other.get_ylabel() for other in axes.figure.axes if other is not axes]
     assert labels == ["" if name == "yielded" else plot.LABELS[name]]
     assert axes.get_title("left") == "t = 0.100 s"
-
-
-def assert_same_state(kept, live):
-    """All but the wall-clock time, which a file does not keep."""
-    assert math.isnan(kept.wall_seconds)
-    assert dataclasses.replace(kept, wall_seconds=0) == dataclasses.replace(live, wall_seconds=0)
 
 
 def test_the_file_gives_what_the_simulation_gives(run):
