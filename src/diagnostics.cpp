@@ -12,6 +12,12 @@ namespace {
 
 // At rest: gp_state.at_rest in gp.h defines it with these numbers.
 constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_unbalanced = 0.01;
+// Grains at the tips may tremble for ever, kicked to and fro within a step. Below 200 particles two are more than 1 %.
+constexpr double trembling_particles = 2, rest_unbalanced_few = 0.05;
+
+double unbalanced_share_at_rest(int64_t particles) {
+    return std::max(rest_unbalanced, std::min(trembling_particles / static_cast<double>(particles), rest_unbalanced_few));
+}
 
 bool is_at_rest(const World &world, const Energies &e) {
     const double scale = std::max(world.ledger.initial, world.ledger.largest_kinetic);
@@ -19,7 +25,7 @@ bool is_at_rest(const World &world, const Energies &e) {
     if (world.clock.step == 0)
         return e.kinetic == 0 && c.gravity.norm() == 0;
     return e.kinetic <= rest_kinetic * scale && world.plastic_power * c.time_scale <= rest_plastic * scale &&
-           world.unbalanced_share <= rest_unbalanced;
+           world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
 }
 
 } // namespace

@@ -69,8 +69,9 @@ struct alignas(64) BlockRange {
     double u_min, u_max, v_min, v_max;
 };
 
-// gp_state.at_rest: below this, in g, an acceleration does not count.
-constexpr double rest_acceleration = 0.05;
+// gp_state.at_rest: below this, in g, an acceleration does not count; what does is averaged over this many steps, since grains
+// that touch push each other to and fro from step to step.
+constexpr double rest_acceleration = 0.05, rest_steps = 20;
 
 // What a step changes before it is known to be good (undo.hpp).
 struct StepStart {
@@ -124,7 +125,7 @@ struct World {
     std::vector<BlockRange> ranges;
     Field<uint8_t> colliding;    // partners of each particle in this step's collisions
     double plastic_power = 0;    // W/m, of the last step
-    double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g
+    double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g lately
     int64_t collisions = 0;
     double max_compression = 0; // largest density over the material's own so far, less 1
     StepStart step_start;

@@ -411,7 +411,8 @@ typedef struct gp_state {
     int32_t at_rest;               /* 1: the material has come to rest: the kinetic energy is below 1e-6 of the scene's
                                       energy scale, the plastic power of the last step would dissipate less than 1e-4 of it
                                       in the scene's free-fall time, and no more than 1 % of the mass is accelerated by
-                                      more than 0.05 g (single grains may tremble on a plate).
+                                      more than 0.05 g, on average over some 20 steps (single grains may tremble on a
+                                      plate; of fewer than 200 particles two, but no more than 5 % of the mass).
                                       The energy scale is the largest of the initial energy of the ledger and the
                                       largest kinetic energy so far */
     int64_t collisions;            /* colliding pairs so far ([1] 2.9), each step's counted anew */

@@ -162,7 +162,7 @@ inline const H5FD_class_t &store_driver() {
         c.name = "granperi";
         c.maxaddr = (haddr_t{1} << 62) - 1;
         c.fc_degree = H5F_CLOSE_STRONG;
-        c.fapl_size = sizeof(Store *);
+        c.fapl_size = sizeof(void *); // of a property list: where its Store is
         c.open = open_store;
         c.close = [](H5FD_t *file) -> herr_t { return std::free(file), 0; };
         c.query = [](const H5FD_t *, unsigned long *flags) -> herr_t {

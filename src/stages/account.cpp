@@ -124,7 +124,9 @@ template <bool Adjoint> void close_books(World &world) {
     world.max_compression = std::max(world.max_compression, total.densest - 1);
     world.collisions += total.collisions / 2;
     world.plastic_power = total.plastic / dt;
-    world.unbalanced_share = world.mass > 0 ? total.unbalanced / world.mass : 0.0;
+    const double unbalanced = world.mass > 0 ? total.unbalanced / world.mass : 0.0;
+    const double part = world.clock.step > 0 ? 1.0 / rest_steps : 1.0;
+    world.unbalanced_share += part * (unbalanced - world.unbalanced_share);
 }
 
 } // namespace

@@ -163,3 +163,22 @@ TEST(AtRest, NothingCreepsForSixSeconds) {
     EXPECT_LT(difference(sim.field(GP_FIELD_X), x1), 0.01 * dl);
     EXPECT_LT(difference(sim.field(GP_FIELD_Y), y1), 0.01 * dl);
 }
+
+// Of forty particles two at the tips may tremble: each is 2.5 % of the mass. (With 1 % of the mass as the limit 2 of these 24
+// deposits were not at rest, at a kinetic energy of 1e-8 of the scene's.)
+TEST(AtRest, CoarseDepositsAreSeenToRestAndTheirFallIsNot) {
+    for (int k = 0; k < 24; ++k) {
+        SCOPED_TRACE(k);
+        Sim sim(shaken(config(Collapse::length / 8), k));
+        sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height);
+        sim.add(floor_at(0, -0.4, 0.4));
+        while (sim.state().time < 0.2) {
+            sim.step(1);
+            ASSERT_EQ(sim.state().at_rest, 0) << sim.state().time << " s";
+        }
+        for (double time = 1; time < 2; time += 0.05) {
+            sim.run(time);
+            ASSERT_EQ(sim.state().at_rest, 1) << sim.state().time << " s";
+        }
+    }
+}
