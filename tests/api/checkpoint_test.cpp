@@ -300,6 +300,13 @@ TEST_F(Checkpoint, AppendedFilesHaveToFit) {
     wrong.fields |= GP_FIELD_SXX;
     EXPECT_FAILS(gp_output_open(sim, h5.c_str(), &wrong), GP_E_IO, "fields");
     wrong = append;
+    wrong.fields = (wrong.fields & ~GP_FIELD_PRESSURE) | GP_FIELD_SXX;
+    EXPECT_FAILS(gp_output_open(sim, h5.c_str(), &wrong), GP_E_IO, "lacks the field sxx");
+    Sim in_two; // as many particles, but in two columns
+    in_two.add(make_column(12, 5));
+    in_two.add(make_column(12, 5, 0, 5 * spacing));
+    EXPECT_FAILS(gp_output_open(in_two, h5.c_str(), &append), GP_E_IO, "other values of column");
+    wrong = append;
     wrong.single_precision = 1;
     EXPECT_FAILS(gp_output_open(sim, h5.c_str(), &wrong), GP_E_IO, "precision");
     wrong = append;

@@ -218,6 +218,20 @@ TEST_F(Output, FramesAreWrittenOnCall) {
     EXPECT_NE(text.find("run.h5:"), std::string::npos);
 }
 
+TEST_F(Output, NamesWithMarkupAreWrittenAsText) {
+    Sim sim;
+    add_collapse(sim, 5, 4);
+    const std::string name = directory + "/a&b<c>\"--";
+    ASSERT_EQ(gp_output_open(sim, (name + ".h5").c_str(), nullptr), GP_OK) << gp_last_error();
+    ASSERT_EQ(gp_output_write(sim), GP_OK) << gp_last_error();
+    ASSERT_EQ(gp_output_close(sim), GP_OK);
+    EXPECT_EQ(times(name + ".h5").size(), 1u);
+    std::ifstream xdmf(name + ".xdmf");
+    const std::string text((std::istreambuf_iterator<char>(xdmf)), std::istreambuf_iterator<char>());
+    EXPECT_NE(text.find("a&amp;b&lt;c&gt;&quot;&#45;&#45;.h5:"), std::string::npos);
+    EXPECT_EQ(text.find("a&b"), std::string::npos);
+}
+
 TEST_F(Output, FollowsTheRunByItself) {
     Sim sim;
     add_collapse(sim, 5, 4);
