@@ -2,6 +2,7 @@
  * docs/hot-path.md is made with it; bench/README.md says how to measure. */
 #define _POSIX_C_SOURCE 200112L
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -134,30 +135,75 @@ static int64_t plan_of(gp_sim *sim, gp_plan_entry *entries) {
     return n < ENTRIES_MAX ? n : ENTRIES_MAX;
 }
 
-static void measure(gp_sim *sim, const choices *c) {
+/* What one measurement found, ns per particle and step. */
+typedef struct cost {
+    double cpu, wall, stage[ENTRIES_MAX];
+} cost;
+
+static cost measure(gp_sim *sim, const choices *c) {
     gp_plan_entry before[ENTRIES_MAX], after[ENTRIES_MAX];
     const int64_t entries = plan_of(sim, before);
     const double cpu = cpu_seconds(), wall = wall_seconds();
-    double particle_steps, bytes = 0, cpu_spent, wall_spent;
+    const double each = 1e9 / ((double)count_of(sim) * c->steps);
+    cost found;
     int64_t k;
     CHECK(gp_step(sim, (int64_t)c->steps));
-    cpu_spent = cpu_seconds() - cpu;
-    wall_spent = wall_seconds() - wall;
+    found.cpu = each * (cpu_seconds() - cpu);
+    found.wall = each * (wall_seconds() - wall);
     plan_of(sim, after);
-    particle_steps = (double)count_of(sim) * c->steps;
+    for (k = 0; k < entries; ++k)
+        found.stage[k] = each * (after[k].seconds - before[k].seconds);
+    return found;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of the member at `offset` of each of n costs; sorts them into `sorted`. */
+static double median_of(const cost *costs, size_t offset, int n, double *sorted) {
+    int k;
+    for (k = 0; k < n; ++k)
+        memcpy(&sorted[k], (const char *)&costs[k] + offset, sizeof *sorted);
+    qsort(sorted, (size_t)n, sizeof *sorted, ascending);
+    return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
+}
+
+static void report(gp_sim *sim, const cost *costs, int n, double *sorted) {
+    gp_plan_entry plan[ENTRIES_MAX];
+    const int64_t entries = plan_of(sim, plan);
+    const double cpu = median_of(costs, offsetof(cost, cpu), n, sorted), least = sorted[0];
+    double bytes = 0;
+    int64_t k;
     printf("particles %.0f 1\n", (double)count_of(sim));
-    printf("cpu %.6g ns/particle-step\n", 1e9 * cpu_spent / particle_steps);
-    printf("wall %.6g ns/particle-step\n", 1e9 * wall_spent / particle_steps);
-    printf("rate %.6g 1e6 particle-steps/cpu-second\n", 1e-6 * particle_steps / cpu_spent);
+    printf("cpu %.6g ns/particle-step\n", cpu);
+    printf("cpu_least %.6g ns/particle-step\n", least);
+    printf("wall %.6g ns/particle-step\n", median_of(costs, offsetof(cost, wall), n, sorted));
+    printf("rate %.6g 1e6 particle-steps/cpu-second\n", 1e3 / cpu);
     for (k = 0; k < entries; ++k) {
-        bytes += (double)after[k].bytes;
-        if (after[k].calls > before[k].calls)
-            printf("stage_%s %.6g ns/particle-step\n", after[k].name,
-                   1e9 * (after[k].seconds - before[k].seconds) / particle_steps);
+        const double stage = median_of(costs, offsetof(cost, stage) + (size_t)k * sizeof(double), n, sorted);
+        bytes += (double)plan[k].bytes;
+        if (stage > 0)
+            printf("stage_%s %.6g ns/particle-step\n", plan[k].name, stage);
     }
     printf("bytes %.6g bytes/particle\n", bytes / (double)count_of(sim));
     printf("peak_memory %.6g bytes, of the whole program so far\n", peak_memory());
     printf("cpu_seconds %.6g s, of the whole program so far\n", cpu_seconds());
+}
+
+static void measure_and_report(gp_sim *sim, const choices *c) {
+    const int n = (int)c->repeat;
+    cost *costs = malloc(sizeof *costs * (size_t)n);
+    double *sorted = malloc(sizeof *sorted * (size_t)n);
+    int k;
+    if (!costs || !sorted)
+        bench_refuse("--repeat", "that many", "no memory for as many measurements");
+    for (k = 0; k < n; ++k)
+        costs[k] = measure(sim, c);
+    report(sim, costs, n, sorted);
+    free(sorted);
+    free(costs);
 }
 
 int main(int argc, char **argv) {
@@ -167,7 +213,7 @@ int main(int argc, char **argv) {
         {"--threads", "threads, 0 for the OpenMP default [1]", BENCH_WHOLE, &c.threads, 0, 1024},
         {"--from", "s, when the measurement begins [0.15]", BENCH_NUMBER, &c.from, 0, 1e6},
         {"--steps", "steps to measure [300]", BENCH_WHOLE, &c.steps, 1, 1e9},
-        {"--repeat", "measurements, one after the other [1]", BENCH_WHOLE, &c.repeat, 1, 1e6},
+        {"--repeat", "measurements of --steps steps, one after the other: their medians and the least CPU time [1]", BENCH_WHOLE, &c.repeat, 1, 1e6},
         {"--horizon", "spacings [4]", BENCH_NUMBER, &c.horizon, 1.8, 8},
         {"--diffusion", "density diffusion [the scheme's own]", BENCH_NUMBER, &c.diffusion, 0, 1},
         {"--walls", "1: between smooth walls, so that it stays at rest [0]", BENCH_WHOLE, &c.walls, 0, 1},
@@ -175,7 +221,6 @@ int main(int argc, char **argv) {
         {"--write", "write the particles at --from to this file, and end", BENCH_TEXT, &c.write, 0, 0},
     };
     gp_sim *sim;
-    int k;
     example_program(argv[0]);
     bench_parse(argc, argv, 1, usage, (int)(sizeof options / sizeof options[0]), options);
     sim = create(&c);
@@ -184,8 +229,7 @@ int main(int argc, char **argv) {
     if (c.write)
         write_particles(sim, c.write);
     else
-        for (k = 0; k < (int)c.repeat; ++k)
-            measure(sim, &c);
+        measure_and_report(sim, &c);
     gp_destroy(sim);
     return 0;
 }

@@ -132,13 +132,14 @@ def growth(results: Collection) -> str:
             if r:
                 s = r.summary
                 lists = share(s.get("stage_update_neighbors", 0.0) / s["wall"], 0)
-                times = [fixed(s["cpu"], 0), lists, seconds(s["cpu"] * s["particles"] * 1e-9)]
+                times = [fixed(s["cpu"], 0), fixed(s["cpu_least"], 0), lists, seconds(s["cpu"] * s["particles"] * 1e-9)]
                 peak = [f"{s['peak_memory'] / 2**20:.0f} MiB", fixed(s["peak_memory"] / s["particles"], 0)]
                 rows.append([label, f"{s['particles']:.0f}", *times, fixed(s["bytes"], 0), *peak])
     header = [
         "",
         "particles",
-        "CPU ns per particle and step",
+        "CPU ns per particle and step, median of 15",
+        "least",
         "of it lists",
         "CPU s per step",
         "bytes per particle, library",
@@ -222,10 +223,10 @@ def _threads(results: Collection) -> list[str]:
         f"{r.summary['side_by_side']:.2f})"
         for r in found
     )
-    load = max(r.summary["load"] for r in found)
+    load = max(r.summary["load"] for r in found)  # before each: also of its own runs before it
     said = (
         ""
-        if load < 1
+        if load < 2.2
         else f", on a machine with a load of up to {load:.0f}, which makes them worthless: to be measured on one at rest"
     )
     return [f"Speed-up on two threads: {cells}{said}."]
