@@ -7,6 +7,8 @@ namespace gp {
 
 std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<PlannedStage> &default_stages) {
     const StageRows rows{t, default_stages};
+    PlannedStage held = rows.same("wall_contact");
+    held.why = "what lies on a plate does not fall in the solve";
     return {
         rows.same("choose_dt"),
         rows.same("move_plates"),
@@ -24,6 +26,9 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         // reads position; writes the operators of the viscous equations
         rows.particles("viscous_system", "regularised mu(I) law, implicit", stages::viscous_system),
         rows.same("integrate"),
+        // Contact holds grains that no pressure holds, as those at the tip of a deposit. Stopped after the solve alone, each
+        // fell by g dt in every step of it, and drew its neighbours along: tips of deposits crept whatever delta was.
+        held,
         // reads velocity, pressure; writes velocity, position, stress
         rows.particles("viscous_solve", "regularised mu(I) law, implicit", stages::viscous_solve),
         rows.same("wall_friction"),

@@ -228,8 +228,8 @@ void solve(World &world) {
     for_each_particle(world, [&](int64_t i) {
         v.target.x[i] = p.vx[i];
         v.target.y[i] = p.vy[i];
-        v.velocity.x[i] = p.vx[i] - dt * p.ax[i];
-        v.velocity.y[i] = p.vy[i] - dt * p.ay[i];
+        v.velocity.x[i] = p.vx[i] - p.push_x[i] - dt * p.ax[i];
+        v.velocity.y[i] = p.vy[i] - p.push_y[i] - dt * p.ay[i];
         v.stress.x[i] = p.sxx[i];
         v.stress.y[i] = p.sxy[i];
     });
