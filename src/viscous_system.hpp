@@ -29,7 +29,7 @@ struct ViscousSystem {
     Field<double> ghost_normal, ghost_tangential;
     VectorField ghost_velocity, ghost_force;
     Field<double> pressure; // Pa, that the yield stress goes by
-    double lever = 0;       // m, see yield_pressure() in viscous_operators.cpp
+    double lever = 0;       // m, see stages/yield_pressure.cpp
 
     VectorField target;               // u*, m/s
     VectorField velocity, rate;       // u, m/s; e = (D_xx - D_yy, 2 D_xy) / 2, 1/s

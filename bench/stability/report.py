@@ -125,8 +125,7 @@ about ρ dl² / dt of it acts, as if δ were dt μ p / (ρ dl²) (the column bel
 ## At rest for a minute
 
 Displacements of the particles of the deposit from {runs.DRIFT_FROM:g} s on.
-The regularised law has no yield: under GP_STRESS_IMPLICIT the whole deposit creeps. With delta = 1e-4 1/s a few grains of the
-surface that are at yield go faster than that: the density diffusion acts on them also at rest.
+The regularised law has no yield: under GP_STRESS_IMPLICIT all of the deposit creeps, the slower the smaller delta is.
 
 {sections.drift(collection)}
 

@@ -44,7 +44,7 @@ class Scheme:
     limit_resolution: int = 16  # of the axis of horizons and of the layer
     limit_sounds: tuple[float, ...] = (0.5, 1, 2, 5)
     drift_end: float = 15.0  # s
-    drift_deltas: tuple[float, ...] = ()  # beside its own
+    drift_deltas: tuple[tuple[float, float], ...] = ()  # beside its own; each with the end of its run (s)
     preset_delta: float = 1e-6  # 1/s
     resolution: int = 32  # L/dl, of creep
     cost: float = 1.0  # of a particle-step, in that of the default scheme
@@ -77,7 +77,7 @@ SCHEMES = {
         Scheme(
             "implicit", "implicit", 1.0, 0.8, 0.4, (0.4, 0.8), (0.8,), (1e-2, 1.0, 1e-1, 1e-3, 1e-4, 1e-6),
             (1e-2, 1e-1), limit_resolutions=(16,), limit_sounds=(0.5, 1, 2), resolution=16, cost=8.0,
-            drift_deltas=(1e-3, 1e-4),
+            drift_deltas=((1e-3, 15.0), (1e-4, 60.0), (1e-5, 15.0)),
         ),
     )
 }  # fmt: skip
@@ -208,12 +208,14 @@ def creep(scheme: str, cfl: float | None = None, delta: float | None = None) -> 
     )
 
 
-def drift(scheme: str, cfl: float, resolution: int = 16, delta: float | None = None) -> Run:
+def drift(
+    scheme: str, cfl: float, resolution: int = 16, delta: float | None = None, end: float | None = None
+) -> Run:
     s = SCHEMES[scheme]
     return collapse(
         scheme,
         resolution,
-        s.drift_end,
+        end or s.drift_end,
         cfl=None if cfl == s.own_cfl else cfl,
         delta=delta or s.delta_option,
         drift_from=DRIFT_FROM,
@@ -229,6 +231,7 @@ class Rest:
     resolution: int
     cfl: float
     delta: float | None
+    end: float  # s
     run: Run
 
     @property
@@ -239,10 +242,11 @@ class Rest:
 
 
 def rests_of(s: Scheme) -> list[Rest]:
-    found = [Rest(s, 16, cfl, s.delta_option, drift(s.key, cfl)) for cfl in s.drift_cfls]
-    found += [Rest(s, 16, s.own_cfl, delta, drift(s.key, s.own_cfl, delta=delta)) for delta in s.drift_deltas]
+    found = [Rest(s, 16, cfl, s.delta_option, s.drift_end, drift(s.key, cfl)) for cfl in s.drift_cfls]
+    for delta, end in s.drift_deltas:
+        found.append(Rest(s, 16, s.own_cfl, delta, end, drift(s.key, s.own_cfl, delta=delta, end=end)))
     if s.key == "default":
-        found.append(Rest(s, 32, s.own_cfl, None, drift_fine()))
+        found.append(Rest(s, 32, s.own_cfl, None, s.drift_end, drift_fine()))
     return found
 
 

@@ -222,13 +222,12 @@ def drift(results: Collection) -> str:
             result = results(rest.run)
             if not result:
                 continue
-            end = s.drift_end
             series = result.tables["series"]
-            late = between(result, "drift", 10, end)
+            late = between(result, "drift", 10, rest.end)
             rows.append(
                 [
                     s.label, f"{rest.resolution}", f"{rest.cfl:g}", f"{rest.delta:g}" if s.drift_deltas else "",
-                    f"{end:g}", significant(series["drift"][-1], 2),
+                    f"{rest.end:g}", significant(series["drift"][-1], 2),
                     significant(series["drift_rms"][-1], 2), significant(float(late[-1] - late[0]), 2),
                     significant(series["kinetic_share"][-1], 2), f"{result.summary['steps']:.2g}", cpu(result.cpu),
                     significant(result.summary["particle_steps_rate"], 2),

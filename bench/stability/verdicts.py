@@ -89,7 +89,7 @@ def in_short(results: Collection) -> list[str]:
         result = results(rest.run)
         if result and rest.scheme.key != "local":
             lines.append(
-                f"At rest, {rest.label}, L/dl = {rest.resolution}: from {runs.DRIFT_FROM:g} to {rest.scheme.drift_end:g} s no "
+                f"At rest, {rest.label}, L/dl = {rest.resolution}: from {runs.DRIFT_FROM:g} to {rest.end:g} s no "
                 f"particle moves by more than {significant(result.tables['series']['drift'][-1], 2)} dl ({result.cpu:.0f} CPU s)."
             )
     return lines

@@ -6,6 +6,7 @@
 #include "kernel.hpp"
 #include "parallel.hpp"
 #include "stages/rows.hpp"
+#include "stages/yield_pressure.hpp"
 
 namespace gp::stages {
 
@@ -114,46 +115,6 @@ void make_ghosts(World &world) {
                                              }
                                          }
                                      });
-}
-
-// Over a lattice that ends at a plate: sum of Q y / sum of Q^2 over one column of particles, where y is a particle's
-// distance from the plate and Q = sum of w (way across the plate) over the ghosts that it sees.
-double lever_of_lattice(double horizon, double spacing) {
-    const int reach = static_cast<int>(std::ceil(horizon / spacing));
-    double first = 0, second = 0;
-    for (int row = 0; row < reach; ++row) {
-        double q = 0;
-        for (int down = row + 1; down <= reach; ++down)
-            for (int along = -reach; along <= reach; ++along)
-                q += down * spacing * weight(spacing * std::hypot(down, along), 1.0 / horizon);
-        first += q * (row + 0.5) * spacing;
-        second += q * q;
-    }
-    return first / second;
-}
-
-// The pressure that the yield stress goes by. What a plate takes from the material is the sum of Q s over the rows that
-// see its ghosts: their mean stress, as it is about a spacing inside, in place of that at the plate. On a floor, where
-// the pressure grows by the weight, this is too little by a spacing over the depth. So these rows' yield stress goes by
-// a pressure that is larger by the weight of as much material, in proportion to Q.
-void find_yield_pressure(World &world) {
-    const Particles &p = world.particles;
-    ViscousSystem &v = world.viscous;
-    const Constants &c = world.constants;
-    if (v.lever == 0)
-        v.lever = lever_of_lattice(c.horizon, c.spacing);
-    std::copy(p.pressure.begin(), p.pressure.begin() + p.count, v.pressure.begin());
-    for (const Contact &contact : world.walls.contacts) {
-        const Vector &n = world.walls.plates[contact.plate].segment().normal;
-        const int64_t i = contact.particle;
-        if (p.pressure[i] <= 0)
-            continue;
-        double q = 0;
-        for (int64_t k = contact.begin; k < contact.end; ++k)
-            q -= v.contact_pair.x[k] * n.x() + v.contact_pair.y[k] * n.y();
-        const double weight_of_lever = -p.density[i] * c.gravity.dot(n) * v.lever * q;
-        v.pressure[i] = std::max(0.0, v.pressure[i] + weight_of_lever);
-    }
 }
 
 // (tangential t (x) t + normal n (x) n) a
@@ -360,7 +321,7 @@ void make_room(World &world) {
     for (VectorField *field : {&v.velocity, &v.change, &v.direction})
         field->resize(with_images);
     for (Field<double> *field :
-         {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.lxx, &v.lxy, &v.lyx, &v.lyy, &v.pressure, &v.regular})
+         {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.lxx, &v.lxy, &v.lyx, &v.lyy, &v.regular})
         field->resize(n);
     for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness})
         field->resize(with_images);
