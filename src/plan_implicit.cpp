@@ -8,6 +8,7 @@ namespace gp {
 std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<PlannedStage> &default_stages) {
     const StageRows rows{t, default_stages};
     PlannedStage held = rows.same("wall_contact");
+    held.name = "wall_support";
     held.why = "what lies on a plate does not fall in the solve";
     return {
         rows.same("choose_dt"),
