@@ -58,8 +58,10 @@ void Plate::place(double time, double dt) {
         velocity_ = driven_velocity_;
     else if (spec_->table.empty())
         velocity_ = spec_->velocity;
-    else
+    else if (dt > 0)
         velocity_ = (spec_->table.displacement(time + dt) - spec_->table.displacement(time)) / dt;
+    else // placed anew between steps, before the first one: as it was
+        return;
     velocity_ += fall_speed_ * spec_->segment.normal;
 }
 

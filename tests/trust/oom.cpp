@@ -158,8 +158,18 @@ void make_and_read(const std::string &scene) {
     gp_destroy(calm);
 }
 
-// After each failure the simulation can be read and goes on to the same bits.
-void step(const std::string &scene) {
+// As it is, perhaps with its particles put back into the order of before the step that failed.
+void require_savable(gp_sim *sim, const std::string &path) {
+    gp_sim *loaded;
+    CHECK(gp_save(sim, path.c_str()));
+    CHECK(gp_load(path.c_str(), &loaded));
+    require_same(bits_of(loaded), bits_of(sim), "gp_load of what was saved after a failure");
+    gp_destroy(loaded);
+    std::filesystem::remove(path);
+}
+
+// After each failure the simulation can be read, and each sixteenth time saved, and goes on to the same bits.
+void step(const std::string &scene, const std::string &directory) {
     gp_sim *calm = make(scene);
     CHECK(gp_step(calm, steps));
     const std::string expected = bits_of(calm);
@@ -173,6 +183,8 @@ void step(const std::string &scene) {
         "gp_step", [&] { return gp_step(sim, steps); },
         [&](gp_status) {
             bits_of(sim);
+            if (counts["gp_step"].failed % 16 == 0)
+                require_savable(sim, directory + "/failed.gp");
             const gp_status again = gp_step(sim, steps - state_of(sim).step);
             check(again, "gp_step after GP_E_MEMORY");
             require_same(bits_of(sim), expected, "gp_step, after a failure");
@@ -323,7 +335,7 @@ int main(int argc, char **argv) {
     for (const char *const scene : scenes) {
         const Leak leak;
         make_and_read(scene);
-        step(scene);
+        step(scene, directory);
         leak.require_none(scene);
     }
     {
