@@ -223,10 +223,10 @@ def _threads(results: Collection) -> list[str]:
         f"{r.summary['side_by_side']:.2f})"
         for r in found
     )
-    load = max(r.summary["load"] for r in found)  # before each: also of its own runs before it
+    load = max(r.summary["load"] for r in found)  # before each; runs of two programs leave 2
     said = (
         ""
-        if load < 2.2
+        if load < 3
         else f", on a machine with a load of up to {load:.0f}, which makes them worthless: to be measured on one at rest"
     )
     return [f"Speed-up on two threads: {cells}{said}."]

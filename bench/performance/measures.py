@@ -156,7 +156,8 @@ def points(results: Collection, scene: str) -> list[Point]:
     for key, r in runs.settings_of(scene):
         result = results(runs.varied(scene, r, key))
         if result:
-            found.append(Point(runs.SETTINGS[key].label, r, runs.DEFAULT_HORIZON, key, cost(result), result))
+            setting = runs.SETTINGS[key]
+            found.append(Point(setting.label, r, setting.horizon, key, cost(result), result))
     return found
 
 

@@ -98,13 +98,14 @@ At the same spacing; in brackets horizon 4. Bias, but in the last column one run
 ### Recommended settings
 
 The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim, as
-do all finer ones of the same setting. Options not named are the library's.
+do all finer ones of the same setting; without the horizons with which the error of an exact solution grows on refinement. Options
+not named are the library's.
 
 {sections.recommended(collection)}
 
 The library's own `horizon` stays at 4 dl all the same: it is the support of the model's paper, what [stability.md](stability.md)
 and [validation.md](validation.md) were measured with, and at equal spacing 3 dl does not cost half. Who wants most for the time
-sets `horizon = 3`; 2.5 dl does as well in the collapses, but not in the exact solutions (below), where refinement makes it worse.
+sets `horizon = 3`; 2.5 dl does as well in the collapses, but not in the exact solutions, where refinement makes it worse.
 
 ## Error against run time: exact solutions
 
@@ -145,7 +146,8 @@ A plate out of reach of all material leaves the plan (`gp_get_plan`), and its gh
 {figure("growth", drawn, GROWTH_CAPTION)}
 
 "At rest": a column between smooth walls, the same work per particle at every size; its lists are not made anew. "In flow":
-the collapse, 300 steps at {runs.FLOW_FROM:g} s.
+the collapse from {runs.FLOW_FROM:g} s on. Measured {runs.REPEAT} times, one after the other: what other guests of the host take of
+caches and memory changes these figures by a third within minutes, so the least says more of the library than the median.
 
 {lean.growth(collection)}
 

@@ -84,9 +84,22 @@ def errors(results: Collection, scene: str) -> str:
     return table(header, [_row(p, ref, front) for p in points])
 
 
-def _candidates(points: list[Point], ref: Reference) -> list[Point]:
-    """Settings of the default scheme."""
-    fair = [p for p in points if p.resolution != ref.resolution]
+def _growing(results: Collection) -> dict[float, list[str]]:
+    """Horizons with which the error of an exact solution grows on refinement, and of which."""
+    growing: dict[float, list[str]] = {}
+    for case in runs.CASES.values():
+        for h in runs.HORIZONS:
+            found = [results(runs.exact(case.name, n, h)) for n in case.resolutions]
+            off = [abs(r.summary[case.measure]) for r in found if r]
+            if len(off) == len(found) and off[-1] > GROWS * min(off):
+                growing.setdefault(h, []).append(case.label)
+    return growing
+
+
+def _candidates(points: list[Point], ref: Reference, results: Collection) -> list[Point]:
+    """Settings of the default scheme, but for horizons that do not converge in the exact solutions."""
+    growing = _growing(results)
+    fair = [p for p in points if p.resolution != ref.resolution and p.horizon not in growing]
     return [p for p in fair if not p.setting or runs.SETTINGS[p.setting].scheme == "default"]
 
 
@@ -98,7 +111,7 @@ def recommended(results: Collection) -> str:
         return ""
     rows = []
     for name, aim in AIMS:
-        p = measures.cheapest(_candidates(points, ref), lambda one: measures.worst(one.result, ref), aim)
+        p = measures.cheapest(_candidates(points, ref, results), lambda one: measures.worst(one.result, ref), aim)
         if p:
             cells = [share(measures.error(p.result, ref, q).one_run) for q in QUANTITIES]
             rows.append([f"{name}: below {100 * aim:g} %", p.label, f"{p.resolution}", seconds(p.cost), *cells])
@@ -244,7 +257,7 @@ def _aim(results: Collection) -> list[str]:
     def worst_bias(p: Point) -> float:
         return measures.largest(abs(measures.error(p.result, ref, q).bias) for q in measures.AIMED_AT)
 
-    own = _candidates(points, ref)
+    own = _candidates(points, ref, results)
     found = {
         "on the mean of several runs": measures.cheapest(own, worst_bias, measures.AIM),
         "in a single run": measures.cheapest(own, lambda p: measures.worst(p.result, ref), measures.AIM),
@@ -291,8 +304,10 @@ def _matter(results: Collection) -> list[str]:
     for p in measures.peers(ref):
         if not p.label.startswith("Matter") or "c = 10" not in p.label:
             continue
-        own = [(h, results(runs.collapse("a1.25", p.resolution or 0, h))) for h in (4.0, 3.0)]
-        costs = " / ".join(f"{seconds(measures.cost(r))} (horizon {h:g})" for h, r in own if r)
+        n = p.resolution or 0
+        own = [(f"horizon {h:g}", results(runs.collapse("a1.25", n, h))) for h in (4.0, 3.0)]
+        own.append((runs.SETTINGS[runs.RECOMMENDED].label, results(runs.varied("a1.25", n, runs.RECOMMENDED))))
+        costs = " / ".join(f"{seconds(measures.cost(r))} ({label})" for label, r in own if r)
         if costs:
             cells.append(
                 f"L/dl = {p.resolution}: {costs}, Matter {cpu(p.cost)}{' (busy machine)' if p.inflated else ''}"
@@ -336,13 +351,8 @@ def _horizon(results: Collection) -> list[str]:
 
 def _exact_horizons(results: Collection) -> list[str]:
     """Horizon 3 against 4 in the exact solutions, and horizons with which an error grows on refinement."""
-    errors, times, growing = [], [], {}
+    errors, times = [], []
     for case in runs.CASES.values():
-        for h in runs.HORIZONS:
-            found = [results(runs.exact(case.name, n, h)) for n in case.resolutions]
-            off = [abs(r.summary[case.measure]) for r in found if r]
-            if len(off) == len(found) and off[-1] > GROWS * min(off):
-                growing.setdefault(h, []).append(case.label)
         for n in case.resolutions:
             three, four = results(runs.exact(case.name, n, 3.0)), results(runs.exact(case.name, n, 4.0))
             if three and four and four.cpu > 0.05:
@@ -354,7 +364,7 @@ def _exact_horizons(results: Collection) -> list[str]:
         f"Exact solutions: with horizon 3 the error is {median(errors):.2f} of that with horizon 4 at the same resolution (median of "
         f"{len(errors)}; {min(errors):.2f} to {max(errors):.2f}), the CPU time {median(times):.2f}"
     )
-    worse = "; ".join(f"{h:g} ({', '.join(labels)})" for h, labels in sorted(growing.items()))
+    worse = "; ".join(f"{h:g} ({', '.join(labels)})" for h, labels in sorted(_growing(results).items()))
     return [text + (f". Horizons with which an error grows on refinement: {worse}." if worse else ".")]
 
 

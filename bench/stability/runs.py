@@ -77,7 +77,7 @@ SCHEMES = {
         Scheme(
             "implicit", "implicit", 1.0, 0.8, 0.4, (0.4, 0.8), (0.8,), (1e-2, 1.0, 1e-1, 1e-3, 1e-4, 1e-6),
             (1e-2, 1e-1), limit_resolutions=(16,), limit_sounds=(0.5, 1, 2), resolution=16, cost=8.0,
-            drift_deltas=((1e-3, 15.0), (1e-4, 60.0), (1e-5, 15.0)),
+            drift_deltas=((1e-3, 15.0), (1e-4, 60.0), (1e-5, 60.0)),
         ),
     )
 }  # fmt: skip
