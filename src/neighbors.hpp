@@ -49,10 +49,15 @@ public:
         }
     }
 
-    int64_t column_of(double x) const { return static_cast<int64_t>(std::floor((x - box_.x_min) * inverse_width_)); }
-    int64_t row_of(double y) const { return static_cast<int64_t>(std::floor((y - box_.y_min) * inverse_height_)); }
+    int64_t column_of(double x) const { return cell_number((x - box_.x_min) * inverse_width_); }
+    int64_t row_of(double y) const { return cell_number((y - box_.y_min) * inverse_height_); }
 
 private:
+    // Far outside of the grid is outside: what does not fit into an integer must not be made one.
+    static int64_t cell_number(double cells) {
+        constexpr double far = 1e15;
+        return static_cast<int64_t>(std::floor(cells > -far ? (cells < far ? cells : far) : -far));
+    }
     int64_t run_begin(int64_t cell) const; // first particle whose cell is not before this one
 
     Box box_;
