@@ -138,7 +138,7 @@ def growth(results: Collection) -> str:
     header = [
         "",
         "particles",
-        "CPU ns per particle and step, median of 15",
+        f"CPU ns per particle and step, median of {runs.REPEAT}",
         "least",
         "of it lists",
         "CPU s per step",

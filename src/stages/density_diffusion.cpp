@@ -27,7 +27,7 @@ ExchangeView prepare_exchange(World &world) {
     const bool one = std::all_of(c.body_material.begin(), c.body_material.end(),
                                  [&](int32_t material) { return c.materials[material].density == first; });
     const double *yield_pressure = p.pressure.data();
-    if (world.scene->config().stress == GP_STRESS_IMPLICIT) {
+    if (c.scheme == Scheme::implicit) { // near plates it yields by another: what bears more than mu p there still rests
         find_yield_pressure(world);
         yield_pressure = world.viscous.pressure.data();
     }
