@@ -131,6 +131,14 @@ The regularised law has no yield: under GP_STRESS_IMPLICIT all of the deposit cr
 
 {figure("drift", drawn, DRIFT_CAPTION)}
 
+### Coarse deposits and the horizon
+
+Of {runs.MORE_SEEDS} collapses of 40 (L/dl = 8) and 160 (16) particles those that `gp_state.at_rest` sees at rest before 1 s and for
+{runs.RESTED:g} s. Large grains have the friction mu_2 at any rate: steep heaps, with single grains on their flanks. A narrow
+horizon holds a grain by few neighbours.
+
+{sections.coarse(collection)}
+
 ## Pressure noise
 
 Noise: rms departure of a particle's pressure from the plane fitted to its neighbours' within 4 dl, over ρ g H.

@@ -326,6 +326,17 @@ def threads_run(threads: int) -> Run:
     return collapse("default", 32, ARREST, threads=threads)
 
 
+# Coarse deposits of beads and of grains so large that their friction is mu_2 at any rate: whether they come to rest.
+COARSE_HORIZONS = (2.2, 2.6, 3.0, 4.0, 5.0, 6.0)
+COARSE_DIAMETERS = (0.002, 0.1, 1.0, 100.0)  # m
+COARSE_RESOLUTIONS = (8, 16)
+
+
+def coarse(resolution: int, diameter: float, horizon: float) -> Run:
+    options = ("--horizon", f"{horizon:g}", "--diameter", f"{diameter:g}")
+    return ensemble(options, resolution, MORE_SEEDS, 2)
+
+
 def sensitivity() -> list[Run]:
     found = [base_ensemble()] + [varied(c, value) for c in COEFFICIENTS for value in c.values]
     return found + [threads_run(n) for n in (1, 2)]
@@ -373,6 +384,9 @@ def studies() -> dict[str, list[Run]]:
         "modes": [mode(pattern, penalty) for pattern in MODES for penalty in PENALTIES],
         "sensitivity": sensitivity(),
         "sensitivity_fine": sensitivity_fine(),
+        "coarse": [
+            coarse(r, d, h) for r in COARSE_RESOLUTIONS for d in COARSE_DIAMETERS for h in COARSE_HORIZONS
+        ],
         "resolution": [resolution_run(r) for r in RESOLUTIONS],
         "million": [million()],
     }

@@ -245,6 +245,18 @@ def drift(results: Collection) -> str:
 FLOW, REST = (0.05, 0.25), (0.6, 1.0)  # s
 
 
+def coarse(results: Collection) -> str:
+    """How many coarse deposits come to rest within a second, by the horizon."""
+    rows = []
+    for resolution in runs.COARSE_RESOLUTIONS:
+        for diameter in runs.COARSE_DIAMETERS:
+            found = [results(runs.coarse(resolution, diameter, h)) for h in runs.COARSE_HORIZONS]
+            if any(found):
+                resting = [f"{share_at_rest(r) * runs.MORE_SEEDS:.0f}" if r else NONE for r in found]
+                rows.append([f"{resolution}", f"{diameter:g}", *resting])
+    return table(["L/dl", "grain diameter (m)", *(f"horizon {h:g}" for h in runs.COARSE_HORIZONS)], rows) if rows else ""
+
+
 def pressure_rows(results: Collection) -> list[tuple[str, Result]]:
     tried = [(f"{s.label}, L/dl = {s.resolution}", runs.creep(s.key)) for s in present(results)]
     tried += [(f"default, horizon {h:g} dl", runs.rough_horizon(h)) for h in runs.ROUGH_HORIZONS]
