@@ -80,6 +80,7 @@ struct Contact {
     double force_x, force_y; // N/m3: force density on the particle
     double power;            // W/m3: of that force on the particle
     double ghost_power;      // W/m3: the ghosts' share of sigma : L
+    double held_normal = 0, held_tangential = 0; // m/s: what the plate gives to the particle in a step, implicit scheme
 };
 
 struct Walls {

@@ -41,6 +41,29 @@ void wall_friction(World &world) {
     }
 }
 
+namespace {
+
+// Does the plate's surface, not one of its ends, face a particle that is at `at` relative to the plate at the step's start?
+bool faces(const Segment &s, const Vector &at) {
+    return s.covers(s.along(at), 0.0);
+}
+
+// Where the particle is at the end of the step, relative to the plate where the step began.
+Vector place_over(const World &world, const Contact &contact) {
+    const Particles &p = world.particles;
+    const Plate &plate = world.walls.plates[contact.plate];
+    return world.walls.nearest_image(plate, {p.x[contact.particle], p.y[contact.particle]}) -
+           world.clock.dt * plate.velocity();
+}
+
+// The blow's friction: that of the material itself on a rough plate.
+double friction_of_blow(const World &world, const Contact &contact) {
+    const PlateSpec &spec = world.walls.plates[contact.plate].spec();
+    return spec.friction == GP_WALL_NO_SLIP ? world.map_of(contact.particle).mu_s : spec.wall_mu;
+}
+
+} // namespace
+
 void wall_contact(World &world) {
     const Particles &p = world.particles;
     const double nearest = contact_distance * world.constants.spacing;
@@ -48,20 +71,55 @@ void wall_contact(World &world) {
         const Plate &plate = world.walls.plates[contact.plate];
         const Segment &s = plate.segment();
         const int64_t i = contact.particle;
-        const Vector moved = world.clock.dt * plate.velocity(); // of the plate in this step
-        const Vector at = world.walls.nearest_image(plate, {p.x[i], p.y[i]}) - moved;
-        if (s.distance(at) >= nearest || !s.covers(s.along(at), 0.0))
+        const Vector at = place_over(world, contact);
+        if (s.distance(at) >= nearest || !faces(s, at))
             continue;
         const Vector relative = Vector(p.vx[i], p.vy[i]) - plate.velocity();
         const double approach = -s.normal.dot(relative);
         if (approach <= 0)
             continue;
-        // The blow's friction: that of the material itself on a rough plate.
-        const double mu = plate.spec().friction == GP_WALL_NO_SLIP ? world.map_of(i).mu_s : plate.spec().wall_mu;
         const double slip = s.tangent.dot(relative);
-        const double stop = std::min(std::abs(slip), mu * approach);
+        const double stop = std::min(std::abs(slip), friction_of_blow(world, contact) * approach);
         push(world, contact, approach * s.normal + (slip > 0 ? -stop : stop) * s.tangent);
     }
+}
+
+namespace {
+
+void hold(World &world, Contact &contact) {
+    const Particles &p = world.particles;
+    const Plate &plate = world.walls.plates[contact.plate];
+    const Segment &s = plate.segment();
+    const Vector at = place_over(world, contact);
+    if (!faces(s, at))
+        return;
+    const Vector relative = Vector(p.vx[contact.particle], p.vy[contact.particle]) - plate.velocity();
+    const double dt = world.clock.dt, normal = s.normal.dot(relative), slip = s.tangent.dot(relative);
+    const double gap = s.distance(at) - dt * normal - contact_distance * world.constants.spacing; // before the step
+    const double pressed = std::max(0.0, contact.held_normal + std::min(0.0, -gap / dt) - normal);
+    const double most = friction_of_blow(world, contact) * pressed;
+    const double dragged = std::clamp(contact.held_tangential - slip, -most, most);
+    const Vector change =
+        (pressed - contact.held_normal) * s.normal + (dragged - contact.held_tangential) * s.tangent;
+    if (change == Vector::Zero())
+        return;
+    push(world, contact, change);
+    contact.held_normal = pressed;
+    contact.held_tangential = dragged;
+}
+
+} // namespace
+
+void wall_support(World &world) {
+    for (Contact &contact : world.walls.contacts) {
+        contact.held_normal = contact.held_tangential = 0;
+        hold(world, contact);
+    }
+}
+
+void wall_hold(World &world) {
+    for (Contact &contact : world.walls.contacts)
+        hold(world, contact);
 }
 
 } // namespace gp::stages
