@@ -28,7 +28,8 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         rows.particles("viscous_system", "regularised mu(I) law, implicit", stages::viscous_system),
         rows.same("integrate"),
         // Contact holds grains that no pressure holds, as those at the tip of a deposit. Stopped after the solve alone, each
-        // fell by g dt in every step of it, and drew its neighbours along: tips of deposits crept whatever delta was.
+        // fell by g dt in every step of it, and drew its neighbours along: tips of deposits crept whatever delta was. The stage
+        // wall_contact corrects what this one did.
         support,
         // reads velocity, pressure; writes velocity, position, stress
         rows.particles("viscous_solve", "regularised mu(I) law, implicit", stages::viscous_solve),

@@ -77,7 +77,7 @@ void pressure_over_shape(World &world);
 void wall_isotropic_stress(World &world);
 // The operators of the viscous equations at r^k.
 void viscous_system(World &world);
-// What a plate bears of single particles before the solve, and what is left to do or to take back after it.
+// What plates bear of single particles before the solve; what is left to do, or to take back, after it.
 void wall_support(World &world);
 void wall_hold(World &world);
 // Velocity and stress at the end of the step, by the regularised law.

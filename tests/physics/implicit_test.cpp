@@ -102,6 +102,45 @@ TEST(Implicit, LeavesTheTipsWhereTheyAre) {
     EXPECT_LT(sim.state().kinetic, 1e-6 * Collapse::energy);
 }
 
+// A grain within a step's fall of the floor lands on it. While contact took the approach alone, it stayed where it was, to
+// fall later: in a shorter step, or lifted a little more.
+TEST(Implicit, LandsGrainsOnTheFloor) {
+    for (const double height : {0.40005, 0.4002, 0.41}) {
+        gp_config c = config(0.005);
+        c.stress = GP_STRESS_IMPLICIT;
+        c.sound_speed = 10;
+        Sim sim(c);
+        const double x[] = {-0.1, 0.1}, y[] = {height * c.spacing, 0.4 * c.spacing};
+        ASSERT_EQ(gp_add_particles(sim, 0, 2, x, y, nullptr, nullptr, nullptr), GP_OK) << gp_last_error();
+        sim.add(floor_at(0, -0.4, 0.4));
+        sim.run(0.1);
+        for (const double at : sim.field(GP_FIELD_Y))
+            EXPECT_NEAR(at, 0.4 * c.spacing, 1e-9 * c.spacing) << height;
+        EXPECT_LT(sim.state().max_speed, 1e-12) << height;
+    }
+}
+
+// What still moves in a deposit is the law's creep: at speeds of delta times a height, and slower and slower. While grains at
+// the tips got away from the floor, by less than they fall in a step, they fell in turn: .005 and .001 m/s for the .0001 and
+// .00002 that are left.
+TEST(Implicit, DoesNotMoveButCreep) {
+    for (const double delta : {1e-3, 1e-4}) {
+        Collapse collapse(8, 21, 32, 1, GP_STRESS_IMPLICIT, delta);
+        Sim &sim = collapse.sim;
+        sim.run(1.5);
+        const gp_state start = sim.state();
+        double fastest = start.max_speed;
+        while (sim.state().time < 2.5) {
+            sim.step();
+            fastest = std::max(fastest, sim.state().max_speed);
+        }
+        std::printf("  delta %g: fastest %.2e m/s, kinetic energy %.1e, then %.1e\n", delta, fastest,
+                    start.kinetic / Collapse::energy, sim.state().kinetic / Collapse::energy);
+        EXPECT_LT(fastest, 10 * delta * Collapse::height) << delta;
+        EXPECT_LT(sim.state().kinetic, start.kinetic) << delta;
+    }
+}
+
 // With mu_s > 1 the uniaxial stress of a free column, tau = p, is within the yield surface: it stands on its own. (In the
 // default scheme the wave of the start tears its faces, and torn material falls: tests/extreme/materials_test.cpp.)
 TEST(Implicit, HoldsAVerticalFaceWhereFrictionCan) {
