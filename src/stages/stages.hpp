@@ -80,6 +80,8 @@ void viscous_system(World &world);
 // What plates bear of single particles before the solve; what is left to do, or to take back, after it.
 void wall_support(World &world);
 void wall_hold(World &world);
+// The viscous forces by the stress and the velocity before the step, into viscous.force: what the solve begins with.
+void viscous_forecast(World &world);
 // Velocity and stress at the end of the step, by the regularised law.
 void viscous_solve(World &world);
 

@@ -95,17 +95,20 @@ void wall_contact(World &world) {
 // does not approach has no friction, by the pull of one step per step.
 namespace {
 
-void hold(World &world, Contact &contact) {
+// ahead: change of velocity that the particle still has to expect in this step.
+void hold(World &world, Contact &contact, const Vector &ahead) {
     const Particles &p = world.particles;
     const Plate &plate = world.walls.plates[contact.plate];
     const Segment &s = plate.segment();
     const Vector at = place_over(world, contact);
     if (!faces(s, at))
         return;
-    const Vector relative = Vector(p.vx[contact.particle], p.vy[contact.particle]) - plate.velocity();
-    const double dt = world.clock.dt, away = s.normal.dot(relative), slip = s.tangent.dot(relative);
-    const double gap = s.distance(at) - dt * away - contact_distance * world.constants.spacing; // when the step began
-    const double least = -std::max(0.0, gap) / dt;                                              // of away
+    const Vector present = Vector(p.vx[contact.particle], p.vy[contact.particle]) - plate.velocity();
+    const Vector expected = present + ahead;
+    const double dt = world.clock.dt, away = s.normal.dot(expected), slip = s.tangent.dot(expected);
+    const double nearest = contact_distance * world.constants.spacing;
+    const double gap = s.distance(at) - dt * s.normal.dot(present) - nearest; // when the step began
+    const double least = -std::max(0.0, gap) / dt;                            // of away
     const double pressed = std::max(0.0, contact.held_normal + least - away);
     const double most = friction_of_blow(world, contact) * pressed;
     const double dragged = std::clamp(contact.held_tangential - slip, -most, most);
@@ -120,15 +123,18 @@ void hold(World &world, Contact &contact) {
 } // namespace
 
 void wall_support(World &world) {
+    viscous_forecast(world);
+    const VectorField &force = world.viscous.force;
     for (Contact &contact : world.walls.contacts) {
+        const int64_t i = contact.particle;
         contact.held_normal = contact.held_tangential = 0;
-        hold(world, contact);
+        hold(world, contact, world.clock.dt / world.material_of(i).density * Vector(force.x[i], force.y[i]));
     }
 }
 
 void wall_hold(World &world) {
     for (Contact &contact : world.walls.contacts)
-        hold(world, contact);
+        hold(world, contact, Vector::Zero());
 }
 
 } // namespace gp::stages
