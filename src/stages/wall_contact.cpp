@@ -84,18 +84,20 @@ void wall_contact(World &world) {
     }
 }
 
-// What a plate does to a particle in a step of the implicit scheme is one impulse, found before the solve and corrected after
-// it and the collisions: N >= 0 so that the particle does not come nearer than the contact distance, or than it was, and
-// friction of up to mu N against its slip. What the solve lifts by less than the plate has borne stays on the plate, and what it
-// drags along by less than the friction left stays where it is.
+// What a plate does to a particle in a step of the implicit scheme is one impulse, found before the solve for what the stress
+// before the step is about to do, and corrected after the solve and the collisions: N >= 0 so that the particle does not come
+// nearer than the contact distance, or than it was, and friction of up to mu N against its slip. What the step lifts by less
+// than the plate has borne stays on the plate, and what it drags along by less than the friction left stays where it is.
 //
-// A blow of its own after the solve, as above, left grains at the tips of deposits to the solve, whose pull does not become
-// less with delta: lifted by it step by step, with nothing to press them back within the height of a step's fall, then in
-// free fall for a step (g dt: 6e-8 of the initial energy of the collapse with a = 1.25, L/dl = 16); and dragged, as a grain that
-// does not approach has no friction, by the pull of one step per step.
+// A grain at the tip of a deposit has no stress of its own, and its neighbours' stress, which does not become less with delta,
+// draws at it. With a blow of its own after the solve, as above, it was lifted step by step, with nothing to press it back
+// within the height of a step's fall, then fell freely for a step (g dt: 6e-8 of the initial energy of the collapse with a =
+// 1.25, L/dl = 16); and as it did not approach, no friction held it. Without regard to that stress it slipped in the solve at
+// some mu g dt before it was stopped: its neighbours followed, or were hit by it and went to and fro (8e-11 instead of 1e-13,
+// horizon 3, delta 1e-5).
 namespace {
 
-// ahead: change of velocity that the particle still has to expect in this step.
+// ahead: change of velocity that is still to be expected in this step.
 void hold(World &world, Contact &contact, const Vector &ahead) {
     const Particles &p = world.particles;
     const Plate &plate = world.walls.plates[contact.plate];
