@@ -121,9 +121,9 @@ TEST(Implicit, LandsGrainsOnTheFloor) {
 }
 
 // What still moves in a deposit is the law's creep: at speeds of delta times a height. While grains at the tips got away from
-// the floor, by less than they fall in a step, they fell in turn (.001 and .002 m/s of the first two); while the floor held them
-// without regard to what the solve would do to them, they were drawn along in it, and their neighbours went to and fro against
-// them (.0002 and .00007 m/s of the last two). 1e-5 to 2e-5 m/s are left.
+// the floor, by less than they fall in a step, they fell in turn (.005 and .0003 m/s of the first two); while the floor held
+// them without regard to what the solve would do to them, they were drawn along in it, and their neighbours went to and fro
+// against them (.0002 and .00007 m/s of the last two). 1e-5 to 2e-5 m/s are left.
 TEST(Implicit, DoesNotMoveButCreep) {
     struct Case {
         int resolution;
