@@ -7,9 +7,9 @@ namespace gp {
 
 std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<PlannedStage> &default_stages) {
     const StageRows rows{t, default_stages};
-    PlannedStage held = rows.same("wall_contact");
-    held.name = "wall_support";
-    held.why = "what lies on a plate does not fall in the solve";
+    PlannedStage support = rows.other("wall_contact", stages::wall_support);
+    support.name = "wall_support";
+    support.why = "what lies on a plate does not fall in the solve";
     return {
         rows.same("choose_dt"),
         rows.same("move_plates"),
@@ -28,14 +28,15 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         rows.particles("viscous_system", "regularised mu(I) law, implicit", stages::viscous_system),
         rows.same("integrate"),
         // Contact holds grains that no pressure holds, as those at the tip of a deposit. Stopped after the solve alone, each
-        // fell by g dt in every step of it, and drew its neighbours along: tips of deposits crept whatever delta was.
-        held,
+        // fell by g dt in every step of it, and drew its neighbours along: tips of deposits crept whatever delta was. The stage
+        // wall_contact corrects what this one did.
+        support,
         // reads velocity, pressure; writes velocity, position, stress
         rows.particles("viscous_solve", "regularised mu(I) law, implicit", stages::viscous_solve),
         rows.same("wall_friction"),
         rows.same("side_wall_friction"),
         rows.same("collide"),
-        rows.same("wall_contact"),
+        rows.other("wall_contact", stages::wall_hold),
         rows.same("update_images"),
         rows.same("account"),
     };

@@ -76,10 +76,11 @@ private:
 // The ghosts that a particle sees of one plate.
 struct Contact {
     int32_t particle, plate;
-    int64_t begin, end;      // in Walls::ghost_of_contact
-    double force_x, force_y; // N/m3: force density on the particle
-    double power;            // W/m3: of that force on the particle
-    double ghost_power;      // W/m3: the ghosts' share of sigma : L
+    int64_t begin, end;                          // in Walls::ghost_of_contact
+    double force_x, force_y;                     // N/m3: force density on the particle
+    double power;                                // W/m3: of that force on the particle
+    double ghost_power;                          // W/m3: the ghosts' share of sigma : L
+    double held_normal = 0, held_tangential = 0; // m/s: by wall_support and wall_hold in this step
 };
 
 struct Walls {

@@ -77,6 +77,11 @@ void pressure_over_shape(World &world);
 void wall_isotropic_stress(World &world);
 // The operators of the viscous equations at r^k.
 void viscous_system(World &world);
+// What plates bear of single particles before the solve; what is left to do, or to take back, after it.
+void wall_support(World &world);
+void wall_hold(World &world);
+// The viscous forces by the stress and the velocity before the step, into viscous.force: what the solve begins with.
+void viscous_forecast(World &world);
 // Velocity and stress at the end of the step, by the regularised law.
 void viscous_solve(World &world);
 

@@ -173,6 +173,16 @@ double step_length(World &world, double hidden) {
     return low > 0 ? low : high;
 }
 
+// Leaves the part of the stress that the law admits at this rate; returns the most that it does, Pa.
+double take_admissible_stress(World &world, int64_t i, double rate) {
+    ViscousSystem &v = world.viscous;
+    const double most = world.material_of(i).law.yield(rate, v.pressure[i]).stress;
+    const Deviator s = within({v.stress.x[i], v.stress.y[i]}, most);
+    v.stress.x[i] = s.xx;
+    v.stress.y[i] = s.xy;
+    return most;
+}
+
 struct Misfit {
     double momentum; // share of the forces
     double law;      // rates against the stress, over what is allowed
@@ -188,15 +198,11 @@ Misfit measure_misfit(World &world, double force_scale) {
         fastest2 = std::max(fastest2, v.velocity.x[i] * v.velocity.x[i] + v.velocity.y[i] * v.velocity.y[i]);
     const double mismatch2 = sum_of(world, [&](int64_t i) {
         const Deviator e{v.rate.x[i], v.rate.y[i]};
-        const double rate = equivalent_stress(e);
-        const double most = world.material_of(i).law.yield(rate, v.pressure[i]).stress;
-        const Deviator s = within({v.stress.x[i], v.stress.y[i]}, most);
-        v.stress.x[i] = s.xx;
-        v.stress.y[i] = s.xy;
+        const double rate = equivalent_stress(e), most = take_admissible_stress(world, i, rate);
         if (most == 0)
             return 0.0;
         const double ratio = std::sqrt(rate * rate + delta * delta) / most;
-        const double dx = e.xx - ratio * s.xx, dy = e.xy - ratio * s.xy;
+        const double dx = e.xx - ratio * v.stress.x[i], dy = e.xy - ratio * v.stress.y[i];
         return dx * dx + dy * dy;
     });
     const double rate2 = dot(world, v.rate, v.rate);
@@ -211,12 +217,25 @@ Misfit measure_misfit(World &world, double force_scale) {
             std::sqrt(mismatch2 / n) / allowed};
 }
 
+// Velocity and stress before the step: at rest these are the solution already.
+void begin_as_before(World &world) {
+    const Particles &p = world.particles;
+    ViscousSystem &v = world.viscous;
+    const double dt = world.clock.dt;
+    for_each_particle(world, [&](int64_t i) {
+        v.velocity.x[i] = p.vx[i] - p.push_x[i] - dt * p.ax[i];
+        v.velocity.y[i] = p.vy[i] - p.push_y[i] - dt * p.ay[i];
+        v.stress.x[i] = p.sxx[i];
+        v.stress.y[i] = p.sxy[i];
+    });
+}
+
 // Finds velocity, stress and force of the end of the step; throws if it cannot.
 void solve(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     const gp_config &config = world.scene->config();
-    const double dt = world.clock.dt, n = static_cast<double>(p.count);
+    const double n = static_cast<double>(p.count);
     // The forces that the law has to balance: all others.
     const double force_scale = std::sqrt(sum_of(world,
                                                 [&](int64_t i) {
@@ -224,15 +243,11 @@ void solve(World &world) {
                                                     return rho * rho * (p.ax[i] * p.ax[i] + p.ay[i] * p.ay[i]);
                                                 }) /
                                          n);
-    // From the velocity and the stress before the step: at rest these are the solution already.
     for_each_particle(world, [&](int64_t i) {
         v.target.x[i] = p.vx[i];
         v.target.y[i] = p.vy[i];
-        v.velocity.x[i] = p.vx[i] - p.push_x[i] - dt * p.ax[i];
-        v.velocity.y[i] = p.vy[i] - p.push_y[i] - dt * p.ay[i];
-        v.stress.x[i] = p.sxx[i];
-        v.stress.y[i] = p.sxy[i];
     });
+    begin_as_before(world);
     for (v.last = 0;; ++v.last, ++v.newton) {
         viscous_rates(world, v.velocity, Plates::move, v.rate);
         if (v.last == 0)
@@ -284,6 +299,17 @@ void solve(World &world) {
 
 void viscous_system(World &world) {
     make_viscous_system(world);
+}
+
+void viscous_forecast(World &world) {
+    ViscousSystem &v = world.viscous;
+    begin_as_before(world);
+    viscous_rates(world, v.velocity, Plates::move, v.rate);
+    find_stiffness(world);
+    for_each_particle(world, [&](int64_t i) {
+        take_admissible_stress(world, i, equivalent_stress({v.rate.x[i], v.rate.y[i]}));
+    });
+    viscous_forces(world, v.stress, v.velocity, v.force);
 }
 
 void viscous_solve(World &world) {

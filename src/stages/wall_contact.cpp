@@ -41,6 +41,29 @@ void wall_friction(World &world) {
     }
 }
 
+namespace {
+
+// Is a place before the plate's surface, not beside its ends?
+bool faces(const Segment &s, const Vector &at) {
+    return s.covers(s.along(at), 0.0);
+}
+
+// Where the particle is by now, for the plate as it was placed when the step began.
+Vector place_over(const World &world, const Contact &contact) {
+    const Particles &p = world.particles;
+    const Plate &plate = world.walls.plates[contact.plate];
+    return world.walls.nearest_image(plate, {p.x[contact.particle], p.y[contact.particle]}) -
+           world.clock.dt * plate.velocity();
+}
+
+// The blow's friction: that of the material itself on a rough plate.
+double friction_of_blow(const World &world, const Contact &contact) {
+    const PlateSpec &spec = world.walls.plates[contact.plate].spec();
+    return spec.friction == GP_WALL_NO_SLIP ? world.map_of(contact.particle).mu_s : spec.wall_mu;
+}
+
+} // namespace
+
 void wall_contact(World &world) {
     const Particles &p = world.particles;
     const double nearest = contact_distance * world.constants.spacing;
@@ -48,20 +71,72 @@ void wall_contact(World &world) {
         const Plate &plate = world.walls.plates[contact.plate];
         const Segment &s = plate.segment();
         const int64_t i = contact.particle;
-        const Vector moved = world.clock.dt * plate.velocity(); // of the plate in this step
-        const Vector at = world.walls.nearest_image(plate, {p.x[i], p.y[i]}) - moved;
-        if (s.distance(at) >= nearest || !s.covers(s.along(at), 0.0))
+        const Vector at = place_over(world, contact);
+        if (s.distance(at) >= nearest || !faces(s, at))
             continue;
         const Vector relative = Vector(p.vx[i], p.vy[i]) - plate.velocity();
         const double approach = -s.normal.dot(relative);
         if (approach <= 0)
             continue;
-        // The blow's friction: that of the material itself on a rough plate.
-        const double mu = plate.spec().friction == GP_WALL_NO_SLIP ? world.map_of(i).mu_s : plate.spec().wall_mu;
         const double slip = s.tangent.dot(relative);
-        const double stop = std::min(std::abs(slip), mu * approach);
+        const double stop = std::min(std::abs(slip), friction_of_blow(world, contact) * approach);
         push(world, contact, approach * s.normal + (slip > 0 ? -stop : stop) * s.tangent);
     }
+}
+
+// What a plate does to a particle in a step of the implicit scheme is one impulse, found before the solve for what the stress
+// before the step is about to do, and corrected after the solve and the collisions: N >= 0 so that the particle does not come
+// nearer than the contact distance, or than it was, and friction of up to mu N against its slip. What the step lifts by less
+// than the plate has borne stays on the plate, and what it drags along by less than the friction left stays where it is.
+//
+// A grain at the tip of a deposit has no stress of its own, and its neighbours' stress, which does not become less with delta,
+// draws at it. With a blow of its own after the solve, as above, it was lifted step by step, with nothing to press it back
+// within the height of a step's fall, then fell freely for a step (g dt: 6e-8 of the initial energy of the collapse with a =
+// 1.25, L/dl = 16); and as it did not approach, no friction held it. Without regard to that stress it slipped in the solve at
+// some mu g dt before it was stopped: its neighbours followed, or were hit by it and went to and fro (8e-11 instead of 1e-13,
+// horizon 3, delta 1e-5).
+namespace {
+
+// ahead: change of velocity that is still to be expected in this step.
+void hold(World &world, Contact &contact, const Vector &ahead) {
+    const Particles &p = world.particles;
+    const Plate &plate = world.walls.plates[contact.plate];
+    const Segment &s = plate.segment();
+    const Vector at = place_over(world, contact);
+    if (!faces(s, at))
+        return;
+    const Vector present = Vector(p.vx[contact.particle], p.vy[contact.particle]) - plate.velocity();
+    const Vector expected = present + ahead;
+    const double dt = world.clock.dt, away = s.normal.dot(expected), slip = s.tangent.dot(expected);
+    const double nearest = contact_distance * world.constants.spacing;
+    const double gap = s.distance(at) - dt * s.normal.dot(present) - nearest; // when the step began
+    const double least = -std::max(0.0, gap) / dt;                            // of away
+    const double pressed = std::max(0.0, contact.held_normal + least - away);
+    const double most = friction_of_blow(world, contact) * pressed;
+    const double dragged = std::clamp(contact.held_tangential - slip, -most, most);
+    const Vector change = (pressed - contact.held_normal) * s.normal + (dragged - contact.held_tangential) * s.tangent;
+    if (change == Vector::Zero())
+        return;
+    push(world, contact, change);
+    contact.held_normal = pressed;
+    contact.held_tangential = dragged;
+}
+
+} // namespace
+
+void wall_support(World &world) {
+    viscous_forecast(world);
+    const VectorField &force = world.viscous.force;
+    for (Contact &contact : world.walls.contacts) {
+        const int64_t i = contact.particle;
+        contact.held_normal = contact.held_tangential = 0;
+        hold(world, contact, world.clock.dt / world.material_of(i).density * Vector(force.x[i], force.y[i]));
+    }
+}
+
+void wall_hold(World &world) {
+    for (Contact &contact : world.walls.contacts)
+        hold(world, contact, Vector::Zero());
 }
 
 } // namespace gp::stages

@@ -102,6 +102,52 @@ TEST(Implicit, LeavesTheTipsWhereTheyAre) {
     EXPECT_LT(sim.state().kinetic, 1e-6 * Collapse::energy);
 }
 
+// A grain within a step's fall of the floor lands on it. While contact took the approach alone, it stayed where it was, to
+// fall later: in a shorter step, or lifted a little more.
+TEST(Implicit, LandsGrainsOnTheFloor) {
+    for (const double height : {0.40005, 0.4002, 0.41}) {
+        gp_config c = config(0.005);
+        c.stress = GP_STRESS_IMPLICIT;
+        c.sound_speed = 10;
+        Sim sim(c);
+        const double x[] = {-0.1, 0.1}, y[] = {height * c.spacing, 0.4 * c.spacing};
+        ASSERT_EQ(gp_add_particles(sim, 0, 2, x, y, nullptr, nullptr, nullptr), GP_OK) << gp_last_error();
+        sim.add(floor_at(0, -0.4, 0.4));
+        sim.run(0.1);
+        for (const double at : sim.field(GP_FIELD_Y))
+            EXPECT_NEAR(at, 0.4 * c.spacing, 1e-9 * c.spacing) << height;
+        EXPECT_LT(sim.state().max_speed, 1e-12) << height;
+    }
+}
+
+// What still moves in a deposit is the law's creep: at speeds of delta times a height. While grains at the tips got away from
+// the floor, by less than they fall in a step, they fell in turn (.005 and .0003 m/s of the first two); while the floor held
+// them without regard to what the solve would do to them, they were drawn along in it, and their neighbours went to and fro
+// against them (.0002 and .00007 m/s of the last two). 1e-5 to 2e-5 m/s are left.
+TEST(Implicit, DoesNotMoveButCreep) {
+    struct Case {
+        int resolution;
+        double horizon, delta;
+    };
+    for (const Case &at : {Case{8, 4, 1e-4}, Case{8, 3, 1e-4}, Case{10, 4, 1e-4}, Case{12, 3, 1e-4}}) {
+        gp_config c = config(Collapse::length / at.resolution);
+        c.stress = GP_STRESS_IMPLICIT;
+        c.horizon = at.horizon;
+        c.delta = at.delta;
+        Sim sim(c);
+        sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height);
+        sim.add(floor_at(0, -0.4, 0.4));
+        sim.run(1);
+        double fastest = 0;
+        while (sim.state().time < 1.4) {
+            sim.step();
+            fastest = std::max(fastest, sim.state().max_speed);
+        }
+        std::printf("  L/dl = %d, horizon %g: fastest %.2e m/s\n", at.resolution, at.horizon, fastest);
+        EXPECT_LT(fastest, 10 * at.delta * Collapse::height) << at.resolution << " " << at.horizon;
+    }
+}
+
 // With mu_s > 1 the uniaxial stress of a free column, tau = p, is within the yield surface: it stands on its own. (In the
 // default scheme the wave of the start tears its faces, and torn material falls: tests/extreme/materials_test.cpp.)
 TEST(Implicit, HoldsAVerticalFaceWhereFrictionCan) {
@@ -174,14 +220,16 @@ TEST(Implicit, ShearsALayerBetweenPlatesLinearly) {
     EXPECT_NEAR(bottom, top, 1e-3 * rate);
 }
 
+// Until the flow, which is chaotic, has made more of the differences that the tolerance leaves: at .05 s they are .004 to .007
+// spacings, at .1 s .02 to .08 (the latter with a tolerance of 1e-8).
 TEST(Implicit, SolvesStiffLawsAlike) {
     std::vector<double> reference;
     for (const double delta : {1e-8, 1e-12}) {
         Collapse collapse(8, 21, 32, 1, GP_STRESS_IMPLICIT, delta);
-        collapse.sim.run(0.1);
+        collapse.sim.run(0.05);
         const std::vector<double> y = collapse.sim.field(GP_FIELD_Y);
         for (std::size_t i = 0; i < reference.size(); ++i)
-            EXPECT_NEAR(y[i], reference[i], 0.05 * Collapse::length / 8);
+            EXPECT_NEAR(y[i], reference[i], 0.02 * Collapse::length / 8);
         reference = y;
         EXPECT_EQ(collapse.sim.state().implicit_failures, 0);
     }
