@@ -19,29 +19,42 @@ namespace {
 // Particles of a row of cells, next to each other: clusters no wider than this, over the radius, see little in vain.
 constexpr double widest_cluster = 0.75;
 
-void cut(const Particles &p, const CellGrid &grid, double radius, ClusterList &list) {
-    const double widest = widest_cluster * radius;
-    list.first.clear();
-    list.cluster_of_block.clear();
-    for (int64_t block = 0; block < block_count(p.count); ++block) {
-        const int64_t end = std::min(p.count, (block + 1) * block_size);
-        list.cluster_of_block.push_back(static_cast<int32_t>(list.first.size()));
-        for (int64_t i = block * block_size; i < end;) {
-            list.first.push_back(static_cast<int32_t>(i));
-            const int64_t row = grid.row_of(p.y[i]);
-            double low = p.x[i], high = p.x[i];
-            int64_t next = i + 1;
-            for (; next < end && next < i + lane_count && grid.row_of(p.y[next]) == row; ++next) {
-                low = std::min(low, p.x[next]);
-                high = std::max(high, p.x[next]);
-                if (high - low > widest)
-                    break;
-            }
-            i = next;
+// Calls body(i) for the first particle of each cluster of a block.
+template <class Body>
+void for_each_cluster(const Particles &p, const CellGrid &grid, double widest, int64_t begin, int64_t end,
+                      const Body &body) {
+    for (int64_t i = begin; i < end;) {
+        body(static_cast<int32_t>(i));
+        const int64_t row = grid.row_of(p.y[i]);
+        double low = p.x[i], high = p.x[i];
+        int64_t next = i + 1;
+        for (; next < end && next < i + lane_count && grid.row_of(p.y[next]) == row; ++next) {
+            low = std::min(low, p.x[next]);
+            high = std::max(high, p.x[next]);
+            if (high - low > widest)
+                break;
         }
+        i = next;
     }
-    list.cluster_of_block.push_back(static_cast<int32_t>(list.first.size()));
-    list.first.push_back(static_cast<int32_t>(p.count));
+}
+
+void cut(const Particles &p, const CellGrid &grid, double radius, int threads, ClusterList &list) {
+    const double widest = widest_cluster * radius;
+    Field<int32_t> &of_block = list.cluster_of_block;
+    of_block.resize(block_count(p.count) + 1);
+    of_block[0] = 0;
+    for_each_block(threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+        int32_t clusters = 0;
+        for_each_cluster(p, grid, widest, begin, end, [&](int32_t) { ++clusters; });
+        of_block[block + 1] = clusters;
+    });
+    std::partial_sum(of_block.begin(), of_block.end(), of_block.begin());
+    list.first.resize(of_block.back() + 1);
+    for_each_block(threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+        int32_t *next = list.first.data() + of_block[block];
+        for_each_cluster(p, grid, widest, begin, end, [&](int32_t i) { *next++ = i; });
+    });
+    list.first.back() = static_cast<int32_t>(p.count);
 }
 
 // Calls body(begin, end, side) for the runs of candidates about a cluster: of particles (side -1) and of those whose images
@@ -130,7 +143,7 @@ bool look_through(const Particles &p, const std::vector<Segment> &barriers, doub
 
 void find_clusters(const Particles &p, const CellGrid &grid, const Images &images, double radius, double close_radius,
                    const std::vector<Segment> &barriers, double tolerance, int threads, ClusterList &list) {
-    cut(p, grid, radius, list);
+    cut(p, grid, radius, threads, list);
     const int64_t count = static_cast<int64_t>(list.first.size()) - 1;
     const double radius2 = radius * radius, close2 = close_radius * close_radius;
     list.start.resize(count + 1);

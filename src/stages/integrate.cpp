@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "error.hpp"
@@ -22,12 +22,16 @@ namespace {
 void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay) {
     const double dt = world.clock.dt;
     const double most = motion_bound * world.constants.spacing / (dt * dt); // m/s2
-    const auto suspect = [&](const BlockSums &block) {
-        return block.unbounded || !(block.acceleration2 <= most * most);
-    };
-    if (std::none_of(world.sums.begin(), world.sums.end(), suspect))
-        return;
     const Particles &p = world.particles;
+    std::atomic<bool> suspect{false};
+    // By all threads: one alone would wait for each line that the others have just written.
+    for_each_block(world.threads, p.count, [&](int64_t k, int64_t, int64_t) {
+        const BlockSums &block = world.sums[k];
+        if (block.unbounded || !(block.acceleration2 <= most * most))
+            suspect.store(true, std::memory_order_relaxed);
+    });
+    if (!suspect)
+        return;
     for (int64_t i = 0; i < p.count; ++i) {
         const double own = world.material_of(i).density;
         if (!is_bounded_density(p.density[i] / own))
