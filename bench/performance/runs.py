@@ -74,7 +74,7 @@ class Scene:
         return self.aspect * self.reference_length
 
 
-OF_A_1_25 = {8: 16, 16: 16, 24: 12, 32: 12, 48: 6, 64: 4}
+OF_A_1_25 = {8: 16, 16: 16, 24: 12, 32: 12, 48: 6, 64: 4, 96: 2, 128: 2}
 OF_A_5 = {8: 12, 12: 12, 16: 12, 24: 6, 32: 4}
 OF_ONE_SIDE = {20: 12, 30: 12, 40: 8, 56: 6, 80: 4}
 WITH_WALL = ("--length", "0.2", "--aspect", "0.7", "--sides", "1", "--diameter", "0.0007")
@@ -88,7 +88,6 @@ SCENES = {
     )
 }
 LONG_REFERENCE = {"a1.25": 256, "a5": 128, "one_side": 320}
-EXTRA_COST = {"a1.25": (128, (3.0, 4.0))}  # a run to the end, for its CPU time
 
 
 @dataclass(frozen=True)
@@ -129,7 +128,7 @@ SETTINGS = {
     )
 }  # fmt: skip
 CHEAP = ("cheap4", "cheap3", "cheap2.5")  # also along all resolutions of a = 1.25
-RECOMMENDED = "cheap3"  # also where EXTRA_COST is
+RECOMMENDED = "cheap3"
 
 
 def _cost(scene: Scene, resolution: int, horizon: float = DEFAULT_HORIZON, end: float = END) -> float:
@@ -191,10 +190,6 @@ def collapses_of(scene: str) -> list[Run]:
     s = SCENES[scene]
     found = [reference(scene, r) for r in s.references]
     found += [collapse(scene, r, h) for r in s.resolutions for h in s.horizons]
-    if scene in EXTRA_COST:
-        resolution, horizons = EXTRA_COST[scene]
-        found += [collapse(scene, resolution, h) for h in horizons]
-        found.append(varied(scene, resolution, RECOMMENDED))
     return found + [varied(scene, r, key) for key, r in settings_of(scene)]
 
 
