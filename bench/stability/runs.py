@@ -44,7 +44,7 @@ class Scheme:
     limit_resolution: int = 16  # of the axis of horizons and of the layer
     limit_sounds: tuple[float, ...] = (0.5, 1, 2, 5)
     drift_end: float = 15.0  # s
-    drift_deltas: tuple[tuple[float, float], ...] = ()  # beside its own; each with the end of its run (s)
+    drift_deltas: tuple[tuple[float, float, float], ...] = ()  # beside its own; each with cfl and end of its run (s)
     preset_delta: float = 1e-6  # 1/s
     resolution: int = 32  # L/dl, of creep
     cost: float = 1.0  # of a particle-step, in that of the default scheme
@@ -77,7 +77,7 @@ SCHEMES = {
         Scheme(
             "implicit", "implicit", 1.0, 0.8, 0.4, (0.4, 0.8), (0.8,), (1e-2, 1.0, 1e-1, 1e-3, 1e-4, 1e-6),
             (1e-2, 1e-1), limit_resolutions=(16,), limit_sounds=(0.5, 1, 2), resolution=16, cost=8.0,
-            drift_deltas=((1e-3, 15.0), (1e-4, 60.0), (1e-5, 60.0)),
+            drift_deltas=((1e-3, 0.8, 15.0), (1e-4, 0.8, 60.0), (1e-4, 0.4, 15.0), (1e-5, 0.8, 60.0)),
         ),
     )
 }  # fmt: skip
@@ -243,8 +243,8 @@ class Rest:
 
 def rests_of(s: Scheme) -> list[Rest]:
     found = [Rest(s, 16, cfl, s.delta_option, s.drift_end, drift(s.key, cfl)) for cfl in s.drift_cfls]
-    for delta, end in s.drift_deltas:
-        found.append(Rest(s, 16, s.own_cfl, delta, end, drift(s.key, s.own_cfl, delta=delta, end=end)))
+    for delta, cfl, end in s.drift_deltas:
+        found.append(Rest(s, 16, cfl, delta, end, drift(s.key, cfl, delta=delta, end=end)))
     if s.key == "default":
         found.append(Rest(s, 32, s.own_cfl, None, s.drift_end, drift_fine()))
     return found
