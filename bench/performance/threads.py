@@ -39,9 +39,9 @@ def main() -> None:
     load = os.getloadavg()[0]  # before these runs make one themselves
     with tempfile.TemporaryDirectory() as work:
         particles = f"{work}/particles"
-        options = ["--resolution", str(arguments.resolution), "--from", str(FROM)]
-        finish(start(program, [*options, "--write", particles], 1))
-        options += ["--steps", str(arguments.steps), "--read", particles]
+        options = ["--resolution", str(arguments.resolution)]
+        finish(start(program, [*options, "--from", str(FROM), "--write", particles], 1))
+        options += ["--from", "0", "--steps", str(arguments.steps), "--read", particles]
         turns = [
             (
                 finish(start(program, options, 1)),
