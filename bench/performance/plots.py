@@ -25,6 +25,7 @@ SETTING_STYLES = {
 }  # fmt: skip
 PEER_STYLES = {"Matter": ("P", "black"), "Basilisk": ("X", "0.4"), "LAMMPS": ("h", "0.6")}
 FLOOR = 1e-4  # below, an error is drawn here
+SHOWN = (0.3, 80)  # %, of collapses: bars of errors may reach down to zero
 
 
 def _log_log(ax: Axes) -> None:
@@ -66,6 +67,7 @@ def _work_precision(ax: Axes, points: list[Point], ref: Reference, quantity: str
     front = measures.pareto(places, places)
     ax.plot([x for x, _ in front], [_percent(y) for _, y in front], color="black", lw=1, ls=":", label="Pareto front")
     ax.axhline(100 * measures.AIM, color="0.8", lw=1, zorder=0)
+    ax.set_ylim(*SHOWN)
     _log_log(ax)
     ax.set_xlabel("CPU s per simulated s")
     ax.set_title(QUANTITIES[quantity], fontsize=14)
