@@ -35,8 +35,6 @@ template <int64_t Size = block_size> int64_t block_count(int64_t n) {
     return (n + Size - 1) / Size;
 }
 
-constexpr int64_t turns = 8; // shares of each thread in one pass over the blocks, were they all alike
-
 // Threads that a simulation uses when its config says 0.
 inline int default_threads() {
 #ifdef GP_WITH_OPENMP
@@ -60,7 +58,8 @@ template <int64_t Size = block_size, class Body> void for_each_block(int threads
     const int useful = static_cast<int>(std::max<int64_t>(1, std::min<int64_t>(threads, blocks / least_blocks)));
     if (useful > 1 && threads_survive()) {
         // Blocks are not alike (what flows has more to do, and lies above what rests), and a processor may be taken away for
-        // a while: whoever is done takes the next share.
+        // a while: whoever is done takes the next share. Were they all alike, each thread would have so many:
+        constexpr int64_t turns = 8;
         const int64_t share = std::max<int64_t>(1, blocks / (useful * turns));
 #pragma omp parallel num_threads(useful)
         {

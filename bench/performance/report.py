@@ -103,14 +103,14 @@ not named are the library's.
 
 {sections.recommended(collection)}
 
-The library's own `horizon` stays at 4 dl. 3 dl costs less at the same error in collapses of beads, and was tried as the default;
-what it loses is robustness, which counts for more in a default. Coarse deposits of strong friction come to rest less surely
-([stability.md](stability.md#coarse-deposits-and-the-horizon)). Of the tests of extreme scenes nine failed with it (once, by hand):
-three rows of grains on a rough floor still moved by 0.04 dl from 1 to 2 s, and two and two grains that met in free space left with
-up to 7 times their kinetic energy, where with 4 dl none gain any. With 24 neighbours that bear weight in place of 44, four grains are as much of a
-neighbourhood as a quarter plane is, and the operators cannot tell them apart. On the lattice jittered by 0.1 dl the gradient is of
-order 1.6 (4 dl: above 1.9). Who wants most for the time in a collapse sets `horizon = 3`; 2.5 dl does as well there, but not in the
-exact solutions, where refinement makes it worse.
+The library's own `horizon` stays at 4 dl. 3 dl costs less at the same error in collapses of beads, and was tried as the
+default; what it loses is robustness, which counts for more in a default. Coarse deposits of strong friction come to rest less
+surely ([stability.md](stability.md#coarse-deposits-and-the-horizon)). Of the tests of extreme scenes nine failed with it (once,
+by hand): three rows of grains on a rough floor still moved by 0.04 dl from 1 to 2 s, and two and two grains that met in free
+space left with up to 7 times their kinetic energy, where with 4 dl none gain any. With 24 neighbours that bear weight in place
+of 44, four grains are as much of a neighbourhood as a quarter plane is, and the operators cannot tell them apart. On the
+lattice jittered by 0.1 dl the gradient is of order 1.6 (4 dl: above 1.9). Who wants most for the time in a collapse sets
+`horizon = 3`; 2.5 dl does as well there, but not in the exact solutions, where refinement makes it worse.
 
 ## Error against run time: exact solutions
 

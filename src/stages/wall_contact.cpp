@@ -125,6 +125,8 @@ void hold(World &world, Contact &contact, const Vector &ahead) {
 } // namespace
 
 void wall_support(World &world) {
+    if (world.walls.contacts.empty())
+        return;
     viscous_forecast(world);
     const VectorField &force = world.viscous.force;
     for (Contact &contact : world.walls.contacts) {
