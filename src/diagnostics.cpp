@@ -54,6 +54,7 @@ gp_state measure_state(const World &world) {
     s.penalty_dissipated = world.ledger.penalty;
     s.wall_dissipated = world.ledger.walls;
     s.diffusion_dissipated = world.ledger.diffusion;
+    s.spacing_dissipated = world.ledger.spacing;
     s.bulk_dissipated = world.ledger.bulk;
     s.collision_dissipated = world.ledger.collisions;
     s.channel_dissipated = world.ledger.side_walls;

@@ -24,6 +24,7 @@ void Particles::allocate(int64_t n, const Optional &use) {
     if (use.flowing) {
         flowing.resize(size);
         bearing.resize(size);
+        crowding.resize(size);
     }
     scratch_int64_.resize(size);
     scratch_int32_.resize(size);

@@ -44,6 +44,7 @@ struct Particles {
     Field<double> stressed;           // 1 where p > 0 and the penalty acts, else 0; only with the penalty
     Field<double> carried;            // share of its stress that a particle near a plate carries; only with plates
     Field<double> flowing, bearing;   // 1 at yield or without stress; 1 under pressure; only with density diffusion
+    Field<double> crowding;           // sum of w where it flows, plates included, else 0; only with density diffusion
     Field<double> ax, ay;             // m/s2, by the forces
     Field<double> push_x, push_y;     // m/s, by collisions and contacts with plates after that
 

@@ -14,8 +14,9 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
     t.particles = scene.particle_count() > 0;
     t.periodic = static_cast<bool>(scene.period());
     t.plates = !scene.plates().empty();
-    t.coulomb_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [](const PlateSpec &plate) {
-        return plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0;
+    t.coulomb_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [&](const PlateSpec &plate) {
+        return (plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0) ||
+               (plate.friction == GP_WALL_NO_SLIP && constants.scheme == Scheme::adjoint);
     });
     t.channel = scene.config().channel_width > 0;
     t.side_walls = scene.config().channel_width > 0 && scene.config().channel_friction > 0;
@@ -66,6 +67,9 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads what is exchanged; writes density
         {"density_diffusion", t.particles && t.diffusion, "density_diffusion > 0", "density_diffusion is 0",
          stages::density_diffusion, nullptr, ""},
+        // reads number density, velocity gradient; writes density
+        {"density_of_spacing", t.particles && t.diffusion, "density_diffusion > 0: so is the number density known",
+         "density_diffusion is 0", stages::density_of_spacing, nullptr, ""},
         // reads velocity gradient; writes density, pressure
         {"density", t.particles, "density by continuity", no_particles, stages::density, nullptr, ""},
         // reads velocity gradient, pressure; writes stress, sigma K^-1
@@ -79,7 +83,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads acceleration; writes velocity, position
         {"integrate", t.particles, "particles move", no_particles, stages::integrate, nullptr, ""},
         // reads contact forces; writes velocity, position
-        {"wall_friction", walls && t.coulomb_plates, "a plate has Coulomb friction", "no plate has Coulomb friction",
+        {"wall_friction", walls && t.coulomb_plates, "a plate has friction", "no plate has friction",
          stages::wall_friction, in_reach, none_near},
         // reads pressure; writes velocity, position
         {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",
@@ -198,7 +202,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                     bytes_of(p.stressed)));
     entries.push_back(field_entry("flowing", t.diffusion,
                                   t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0",
-                                  bytes_of_all(p.flowing, p.bearing)));
+                                  bytes_of_all(p.flowing, p.bearing, p.crowding)));
     const bool flights = t.plates && !by_number_density(t.scheme);
     entries.push_back(field_entry("carried", flights,
                                   flights     ? "grains in flight above a plate carry no stress"

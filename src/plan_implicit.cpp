@@ -18,6 +18,7 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         rows.other("wall_velocity", stages::wall_volume_velocity),
         rows.same("gradient"),
         rows.same("density_diffusion"),
+        rows.same("density_of_spacing"),
         rows.same("density"),
         // reads velocity gradient, pressure; writes -p K^-1
         rows.particles("pressure_over_shape", "force states of the pressure", stages::pressure_over_shape),

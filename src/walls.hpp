@@ -73,9 +73,9 @@ private:
     Vector velocity_ = Vector::Zero();
 };
 
-// The ghosts that a particle sees of one plate.
+// The ghosts that a particle sees of one plate, or of one chain of plates: then `plate` is the one nearest to the particle.
 struct Contact {
-    int32_t particle, plate;
+    int32_t particle, plate, chain;
     int64_t begin, end;                          // in Walls::ghost_of_contact
     double force_x, force_y;                     // N/m3: force density on the particle
     double power;                                // W/m3: of that force on the particle
@@ -89,15 +89,18 @@ struct Walls {
 
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
-    Field<int32_t> ghost_plate;
+    Field<int32_t> ghost_plate, ghost_chain;
     Field<int32_t> wall_particle; // the ghost of the first layer whose state it takes; only in the paper's schemes
     Field<double> ghost_along, ghost_depth;        // m, in the plate's frame: from end 0, and behind the wetted line
+    Field<double> ghost_nx, ghost_ny;              // from the ghost to the wetted line, unit vector
+    Field<double> ghost_distance;                  // m, on that way; ghost_depth but for the fans at corners of chains
     Field<double> ghost_shift;                     // m, 0 or a period up or down; periodic scenes only
     Field<double> ghost_x, ghost_y;                // m
     Field<double> ghost_vx, ghost_vy;              // m/s, extrapolated
     Field<double> ghost_axx, ghost_axy, ghost_ayy; // stress over the full-lattice shape tensor, N/m4 per unit of w r
 
     NeighborList particles_of_ghost; // (close_count unused)
+    Field<int32_t> plate_of_entry;   // of particles_of_ghost.index: the plate of the chain nearest to the particle
     Field<int32_t> ghost_of_contact; // rows of contacts
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
     std::vector<Contact> contacts;   // ordered by particle, then plate
@@ -136,7 +139,25 @@ struct Walls {
 
     // Finds ghosts and contacts within `radius` of the sorted particles.
     void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                       double spacing, int threads);
+                       double spacing, bool chained, int threads);
+
+    // The plate of the chain that a place is in front of, searched from `plate` on; nearest to it beside all ends.
+    int32_t facing(int32_t plate, const Vector &at) const {
+        for (int step = 0; step < 64; ++step) {
+            const Segment &s = plates[plate].segment();
+            const double along = s.along(nearest_image(plates[plate], at));
+            const int32_t other = along < 0 ? links_[plate].before : along >= s.length ? links_[plate].after : -1;
+            if (other < 0)
+                return plate;
+            const Segment &o = plates[other].segment();
+            const Vector image = nearest_image(plates[other], at);
+            if (o.nearest(image) > s.nearest(nearest_image(plates[plate], at)) ||
+                (along < 0 ? o.along(image) >= o.length : o.along(image) < 0)) // between the two, or turning back
+                return plate;
+            plate = other;
+        }
+        return plate;
+    }
 
     // Finds the wall particle of each ghost: the one in front of it, or the nearest that is between the plate's ends.
     void find_wall_particles(double spacing);
@@ -154,21 +175,36 @@ private:
         int32_t plate;
         double shift;  // m, of the image
         double before; // m, from where the segment begins to end 0
+        int32_t chain; // number
     };
+    struct Link {
+        int32_t before = -1, after = -1; // plates
+    };
+    struct Chain {
+        int32_t root; // the same for all images
+        std::vector<int32_t> members; // images, in order
+        std::vector<double> turn;     // after each, radians, positive: opens on the body's side
+        bool closed;
+    };
+    void find_chains(double radius, double spacing, bool chained);
+    void place_chain(const Chain &chain, const CellGrid &grid, double radius, double spacing);
     const std::vector<Nearby> &images_of_plates();
     void find_nearby(const Particles &particles, const CellGrid &grid, double radius);
     void place_candidates(const CellGrid &grid, double radius, double spacing);
 
     struct Candidate {
         int32_t nearby; // which
-        double along, depth, x, y;
+        double along, depth, x, y, nx, ny, distance;
         int64_t neighbors; // particles and images that see it
         bool seen;         // by a particle
     };
     std::vector<Nearby> nearby_, images_;
+    std::vector<int32_t> nearby_of_image_;
+    std::vector<Link> links_;
+    std::vector<Chain> chains_;
     std::vector<Segment> barriers_;
     std::vector<Candidate> candidates_;
-    Field<int32_t> fill_;
+    Field<int32_t> fill_, plate_of_contact_;
 };
 
 } // namespace gp

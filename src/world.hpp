@@ -37,6 +37,7 @@ struct Ledger {
     double penalty = 0;          // the part of the zero-energy penalty
     double walls = 0;            // the part lost between ghosts and plates, and by grains in flight above them
     double diffusion = 0;        // the part of density diffusion
+    double spacing = 0;          // the part of density_of_spacing: what it gives, below 0
     double bulk = 0;             // the part of the bulk viscosity
     double collisions = 0;       // the part of the collision safeguard
     double side_walls = 0;       // the part of the friction of side walls
@@ -50,6 +51,7 @@ struct alignas(64) BlockSums {
     double plastic = 0;        // J/m, dissipated by yielding
     double bulk = 0;           // J/m, dissipated by the bulk viscosity
     double diffused = 0;       // J/m, lost by density diffusion
+    double spaced = 0;         // J/m, lost where the density follows the spacing
     double total_power = 0;    // W/m, of all internal and wall forces
     double internal_power = 0; // W/m, sum of V sigma:L
     double acceleration2 = 0;  // m2/s4, sum

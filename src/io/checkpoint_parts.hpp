@@ -118,6 +118,7 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
     file.value("penalty", w.ledger.penalty);
     file.value("walls", w.ledger.walls);
     file.value("diffusion", w.ledger.diffusion);
+    file.value("spacing", w.ledger.spacing);
     file.value("bulk", w.ledger.bulk);
     file.value("collisions", w.ledger.collisions);
     file.value("side_walls", w.ledger.side_walls);

@@ -61,7 +61,8 @@ ExchangeView prepare_exchange(World &world) {
             c.gravity.y() / c2,
             1.5 * c.lattice.number_density, // with the stable step less than all of the difference to the mean
             one,
-            p.cxx.data()};
+            p.cxx.data(),
+            p.crowding.data()};
 }
 
 void density_diffusion(World &world) {

@@ -1,5 +1,6 @@
 // Shape tensor and velocity gradient of each particle; with density diffusion also its sums, over the same pairs.
 #include "lanes.hpp"
+#include "mps_operators.hpp"
 #include "operators.hpp"
 #include "parallel.hpp"
 #include "stages/density_exchange.hpp"
@@ -59,6 +60,15 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
     exchange = local;
 }
 
+// The plates' part of the sum of w.
+GP_INLINE void crowd_by_plates(const View &v, int64_t i) {
+    if (!v.exchange.change || v.exchange.crowding[i] == 0)
+        return;
+    for (const Contact &contact : v.rows.contacts_of(i))
+        v.exchange.crowding[i] += number_density_sum(v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i],
+                                                     v.gx, v.gy, v.inverse_radius);
+}
+
 GP_INLINE void finish(const View &v, int64_t i, Moments m) {
     const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
     for (const Contact &contact : v.rows.contacts_of(i)) {
@@ -93,6 +103,7 @@ template <class Exchange> GP_INLINE void cluster_gradient(const View &v, int64_t
     for (int64_t i = first; i < last; ++i) {
         finish(v, i, sum.of(static_cast<int>(i - first)));
         exchange.finish(v.exchange, i, static_cast<int>(i - first));
+        crowd_by_plates(v, i);
     }
 }
 

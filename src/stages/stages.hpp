@@ -43,6 +43,8 @@ void density(World &world);
 void gradient_and_exchange(World &world);
 // Optional smoothing of the density where the material flows.
 void density_diffusion(World &world);
+// Density of flowing material whose particles have come too close.
+void density_of_spacing(World &world);
 // Elastic trial and return map; leaves sigma K^-1.
 void stress(World &world);
 // Ghost stresses extrapolated from the particles.

@@ -79,7 +79,8 @@ void make_lists(World &world) {
                   world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads, world.clusters);
     if (c.scheme != Scheme::adjoint)
         find_neighbors(world.particles, world.clusters, radius, world.threads, world.neighbors);
-    world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing, world.threads);
+    world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing,
+                              !by_number_density(c.scheme), world.threads);
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
     if (c.scheme == Scheme::implicit)

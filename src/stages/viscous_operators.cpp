@@ -81,8 +81,8 @@ void make_ghosts(World &world) {
                 v.seen_pair.y[k] = q * dy;
             }
             const Plate &plate = w.plates[w.ghost_plate[g]];
-            const double shift = w.ghost_shift.empty() ? 0.0 : w.ghost_shift[g];
-            const Vector mirror = Vector(w.ghost_x[g], w.ghost_y[g]) + 2 * w.ghost_depth[g] * plate.segment().normal;
+            const Vector n(w.ghost_nx[g], w.ghost_ny[g]), ghost(w.ghost_x[g], w.ghost_y[g]);
+            const Vector mirror = ghost + 2 * w.ghost_distance[g] * n;
             double sum = 0, distance = 0;
             for (int64_t k = mirrors.of_ghost.start[g]; k < mirrors.of_ghost.start[g + 1]; ++k) {
                 const int32_t i = mirrors.of_ghost.index[k];
@@ -91,11 +91,11 @@ void make_ghosts(World &world) {
                 const double share = soft * soft * soft * soft;
                 v.mirror_share[k] = share;
                 sum += share;
-                distance += share * plate.segment().distance({p.x[i] - shift, p.y[i]});
+                distance += share * (n.dot(Vector(p.x[i], p.y[i]) - ghost) - w.ghost_distance[g]);
             }
             for (int64_t k = mirrors.of_ghost.start[g]; k < mirrors.of_ghost.start[g + 1]; ++k)
                 v.mirror_share[k] /= sum;
-            const double ratio = w.ghost_depth[g] / std::max(distance / sum, least_distance * spacing);
+            const double ratio = w.ghost_distance[g] / std::max(distance / sum, least_distance * spacing);
             v.ghost_normal[g] = -ratio;
             // Without friction of its own a plate passes no shear through its surface.
             v.ghost_tangential[g] = plate.spec().friction == GP_WALL_NO_SLIP ? -ratio : 1.0;
@@ -118,8 +118,9 @@ void make_ghosts(World &world) {
 }
 
 // (tangential t (x) t + normal n (x) n) a
-GP_INLINE Vector scaled(const Segment &s, double tangential, double normal, const Vector &a) {
-    return tangential * s.tangent.dot(a) * s.tangent + normal * s.normal.dot(a) * s.normal;
+GP_INLINE Vector scaled(const Walls &w, int64_t ghost, double tangential, double normal, const Vector &a) {
+    const Vector n(w.ghost_nx[ghost], w.ghost_ny[ghost]), t(-n.y(), n.x());
+    return tangential * t.dot(a) * t + normal * n.dot(a) * n;
 }
 
 void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
@@ -137,7 +138,7 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
             Vector own = Vector::Zero();
             if (plates == Plates::move)
                 own = plate.velocity();
-            const Vector ghost = own + scaled(plate.segment(), v.ghost_tangential[g], v.ghost_normal[g], mean - own);
+            const Vector ghost = own + scaled(w, g, v.ghost_tangential[g], v.ghost_normal[g], mean - own);
             v.ghost_velocity.x[g] = ghost.x();
             v.ghost_velocity.y[g] = ghost.y();
         }
@@ -190,12 +191,11 @@ void find_ghost_forces(World &world, const VectorField &u) {
     ViscousSystem &v = world.viscous;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
-            const Plate &plate = w.plates[w.ghost_plate[g]];
             double fx = 0, fy = 0;
             for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
                 const int32_t i = w.particles_of_ghost.index[k];
                 double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
-                drop_wall_shear(plate, xx, xy, yx, yy);
+                drop_wall_shear(w.plates[w.plate_of_entry[k]], xx, xy, yx, yy);
                 const double share = v.stiffness[i] * v.seen_weight[k];
                 fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k] + share * (v.ghost_velocity.x[g] - u.x[i]);
                 fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k] + share * (v.ghost_velocity.y[g] - u.y[i]);
@@ -224,7 +224,7 @@ GP_INLINE Vector force_of_contact(const View &v, const World &world, const Vecto
     const int64_t c = &contact - world.walls.contacts.data();
     for (int64_t k = mirrors.contact_start[c]; k < mirrors.contact_start[c + 1]; ++k) {
         const int32_t g = mirrors.ghost[k];
-        force += s.mirror_share[mirrors.place[k]] * scaled(plate.segment(), s.ghost_tangential[g], s.ghost_normal[g],
+        force += s.mirror_share[mirrors.place[k]] * scaled(world.walls, g, s.ghost_tangential[g], s.ghost_normal[g],
                                                            Vector(s.ghost_force.x[g], s.ghost_force.y[g]));
     }
     return force;
