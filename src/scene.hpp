@@ -85,6 +85,7 @@ struct Constants {
     double reach;                    // m, of the neighbour and ghost lists: the largest radius that the scheme uses
     LatticeSums lattice;             // for the horizon
     LatticeSums interaction_lattice; // for the interaction radius
+    OneSidedSlope one_sided;         // of the weight
     double sound_speed;              // c0, m/s
     double flow_speed;               // m/s, the largest that the scene can reach, which the sound speed is based on
     bool sound_speed_is_arbitrary;   // nothing in the scene sets a speed

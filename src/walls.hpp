@@ -80,6 +80,8 @@ struct Contact {
     double force_x, force_y;                     // N/m3: force density on the particle
     double power;                                // W/m3: of that force on the particle
     double ghost_power;                          // W/m3: the ghosts' share of sigma : L
+    double inner_xx = 0, inner_xy = 0, inner_yx = 0, inner_yy = 0; // 1/s: gradient of the particles alone, without ghosts;
+                                                                   // kept with the first contact of each particle
     double held_normal = 0, held_tangential = 0; // m/s: by wall_support and wall_hold in this step
 };
 

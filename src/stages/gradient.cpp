@@ -16,6 +16,7 @@ struct View {
     Clusters clusters;
     const double *x, *y, *vx, *vy;
     const Plate *plates;
+    Contact *contacts;
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, lattice_moment;
     double *lxx, *lxy, *lyx, *lyy, *ixx, *ixy, *iyy;
@@ -69,9 +70,24 @@ GP_INLINE void crowd_by_plates(const View &v, int64_t i) {
                                                      v.gx, v.gy, v.inverse_radius);
 }
 
+GP_INLINE Tensor gradient_of(const Moments &m, const SymmetricTensor &g) {
+    Tensor l;
+    l << m.mxx * g.xx + m.mxy * g.xy, m.mxx * g.xy + m.mxy * g.yy, m.myx * g.xx + m.myy * g.xy, m.myx * g.xy + m.myy * g.yy;
+    return l;
+}
+
 GP_INLINE void finish(const View &v, int64_t i, Moments m) {
+    const Rows::Run contacts = v.rows.contacts_of(i);
+    if (contacts.first != contacts.last) {
+        const Tensor inner = gradient_of(m, inverse_shape(m, v.lattice_moment));
+        Contact &first = v.contacts[contacts.first - v.rows.contacts];
+        first.inner_xx = inner(0, 0);
+        first.inner_xy = inner(0, 1);
+        first.inner_yx = inner(1, 0);
+        first.inner_yy = inner(1, 1);
+    }
     const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
-    for (const Contact &contact : v.rows.contacts_of(i)) {
+    for (const Contact &contact : contacts) {
         Moments own;
         add_moments(own, v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
                     v.gy, v.gvx, v.gvy, v.inverse_radius);
@@ -130,7 +146,7 @@ GP_MULTIVERSION void exchanging_clusters_of_densities(const View &v, int64_t beg
 
 View view_of(World &world, const ExchangeView &exchange) {
     Particles &p = world.particles;
-    const Walls &w = world.walls;
+    Walls &w = world.walls;
     return {Rows(world),
             Clusters(world),
             p.x.data(),
@@ -138,6 +154,7 @@ View view_of(World &world, const ExchangeView &exchange) {
             p.vx.data(),
             p.vy.data(),
             w.plates.data(),
+            w.contacts.data(),
             w.ghost_x.data(),
             w.ghost_y.data(),
             w.ghost_vx.data(),

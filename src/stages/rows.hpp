@@ -80,6 +80,20 @@ GP_INLINE void drop_wall_shear(const Plate &plate, double &xx, double &xy, doubl
     yy -= shear * t.y() * n.y();
 }
 
+// The gradient that a particle's neighbours make without the ghosts of plates: what the zero-energy penalty, which acts
+// between particles alone, goes by. (By the gradient with ghosts it sheared layers that slide on a rough plate: the lowest rows
+// stopped, and the rows above slid on.) The first contact of a particle keeps it.
+inline Tensor inner_gradient(const World &world, int64_t i) {
+    const Particles &p = world.particles;
+    const Rows::Run contacts = Rows(world).contacts_of(i);
+    Tensor l;
+    if (contacts.first != contacts.last)
+        l << contacts.first->inner_xx, contacts.first->inner_xy, contacts.first->inner_yx, contacts.first->inner_yy;
+    else
+        l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
+    return l;
+}
+
 // Beside a plate along which ghosts move with the particles, the penalty towards them could drive: it is left out.
 inline bool touches_slip(const World &world, int64_t i) {
     for (const Contact &contact : Rows(world).contacts_of(i))
