@@ -34,12 +34,14 @@ struct Segment {
         return other;
     }
 
-    // Distance of a point from the segment.
-    double nearest(const Vector &point) const {
-        const double s = along(point);
-        const double beyond = s < 0 ? -s : (s > length ? s - length : 0.0);
-        return std::hypot(beyond, distance(point));
+    // Distance of a point from the segment, and its square.
+    double nearest(const Vector &point) const { return std::hypot(beyond(along(point)), distance(point)); }
+    double nearest_square(const Vector &point) const {
+        const double past = beyond(along(point)), off = distance(point);
+        return past * past + off * off;
     }
+    // How far `along` is past an end.
+    double beyond(double s) const { return s < 0 ? -s : (s > length ? s - length : 0.0); }
 };
 
 // Periodicity in x.
