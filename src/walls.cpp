@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "parallel.hpp"
+#include "sight.hpp"
 
 namespace gp {
 
@@ -36,13 +37,6 @@ int64_t Walls::bytes() const {
 
 namespace {
 
-// Two plates passed at fractions of the way that differ by less are passed at their common corner: twice the tolerance of
-// crossing(), 1e-9 dl, over ways of at least half a spacing.
-constexpr double corner = 1e-8;
-
-// A particle this close behind the line still counts as in front of it: the contact stage is about to push it back.
-constexpr double penetration_allowed = 0.25; // dl
-
 Box box_around(const Segment &s, double margin) {
     const Vector end = s.origin + s.length * s.tangent;
     return {std::min(s.origin.x(), end.x()) - margin, std::max(s.origin.x(), end.x()) + margin,
@@ -73,8 +67,8 @@ const std::vector<PlateImage> &Walls::images_of_plates() {
     return all;
 }
 
-const std::vector<Segment> &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
-    std::vector<Segment> &found = barriers_;
+const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
+    std::vector<Segment> &found = barriers_.segments;
     found.clear();
     for (const PlateImage &image : images_of_plates()) {
         const Segment &s = image.segment;
@@ -86,14 +80,15 @@ const std::vector<Segment> &Walls::barriers(const Particles &particles, const Ce
         grid.for_each_run(box, [&](int64_t begin, int64_t end) {
             for (int64_t i = begin; i < end && !behind; ++i) {
                 const Vector r(particles.x[i], particles.y[i]);
-                const double d = s.distance(r), along = s.along(r);
-                behind = d < -allowed && d > -radius && along > -radius && along < s.length + radius;
+                behind = s.distance(r) < -allowed && s.nearest_square(r) < radius * radius;
             }
         });
         if (behind)
             found.push_back(s);
     }
-    return found;
+    barriers_.cells.sort(
+        static_cast<int64_t>(found.size()), [&](int64_t k) { return &found[k]; }, grid.box(), radius);
+    return barriers_;
 }
 
 void Walls::find_near(const Particles &particles, const CellGrid &grid, double radius) {
@@ -118,100 +113,6 @@ void Walls::place_candidates(const CellGrid &grid, double radius, double spacing
 }
 
 namespace {
-
-// What can be seen of a ghost, and through which plate of its chain.
-//
-// The chain's plates that turn by less than a right angle from the ghost's own are its own side, through any of which it is
-// seen; those that face otherwise (the far side of a thin body) hide it like another chain's.
-struct Sight {
-    const std::vector<PlateImage> &images;
-    const PlateChains &chains;
-    double radius, spacing;
-    int32_t *about; // room for the plates about a ghost: of its own side from the front on, others from the back on
-    int64_t room;
-    int64_t own = 0, others = 0;
-    PlateCells::Run run{nullptr, nullptr}; // all of them
-
-    double tolerance() const { return 1e-9 * spacing; }
-    // Ends that meet within the joint's tolerance leave no slit.
-    double slack(int32_t image) const { return chains.joined(images[image].plate) ? joint * spacing : tolerance(); }
-    bool is_own(const WallPlace &ghost, int32_t image) const {
-        return image == ghost.image || (chains.place_of(image) == chains.place_of(ghost.image) &&
-                                        images[image].segment.tangent.dot(images[ghost.image].segment.tangent) > 0);
-    }
-
-    // False if another plate of its side is nearer to the ghost: that one has ghosts of its own there.
-    bool look_about(const WallPlace &ghost, const PlateCells &cells) {
-        run = cells.about(ghost.x, ghost.y);
-        own = others = 0;
-        const Vector at(ghost.x, ghost.y);
-        const double far = radius + tolerance(), nearer = std::max(0.0, ghost.distance - 0.1 * spacing);
-        const auto add = [&](int32_t q) {
-            const Segment &s = images[q].segment;
-            const double distance2 = s.nearest_square(at);
-            if (distance2 > far * far)
-                return true;
-            if (!is_own(ghost, q))
-                about[room - ++others] = q;
-            else {
-                if (q != ghost.image && distance2 < nearer * nearer)
-                    return false;
-                about[own++] = q;
-            }
-            return true;
-        };
-        // Outwards from the ghost's own plate: through what is in front of it most see it.
-        const int32_t *middle = std::lower_bound(run.first, run.last, ghost.image);
-        for (const int32_t *up = middle, *down = middle; up != run.last || down != run.first;) {
-            if (up != run.last && !add(*up++))
-                return false;
-            if (down != run.first && !add(*--down))
-                return false;
-        }
-        return true;
-    }
-
-    // The image of its own side that the way passes first, -1 if it passes none. Which one matters only to what hides.
-    int32_t pass(const Vector &from, const Vector &at, double &fraction) const {
-        int32_t passed = -1;
-        fraction = INFINITY;
-        for (int64_t k = 0; k < own && (passed < 0 || others > 0); ++k)
-            if (const double here = crossing(images[about[k]].segment, from, at, slack(about[k]));
-                here >= 0 && here < fraction) {
-                fraction = here;
-                passed = about[k];
-            }
-        return passed;
-    }
-
-    // The same for any place, also from slightly behind a plate; -1 if the ghost is hidden.
-    int32_t seen_through(const WallPlace &ghost, Vector from) const {
-        const Vector at(ghost.x, ghost.y);
-        double fraction;
-        int32_t passed = pass(from, at, fraction);
-        for (const int32_t *q = run.first; passed < 0 && q != run.last; ++q) {
-            const Segment &s = images[*q].segment;
-            const double d = s.distance(from);
-            if (d > 0 || d < -penetration_allowed * spacing || !s.covers(s.along(from), tolerance()) ||
-                !is_own(ghost, *q))
-                continue;
-            from += (tolerance() - d) * s.normal;
-            passed = pass(from, at, fraction);
-            break;
-        }
-        if (passed < 0)
-            return -1;
-        const int32_t chain = chains.place_of(ghost.image);
-        for (int64_t k = 1; k <= others; ++k) {
-            const int32_t q = about[room - k];
-            const double here = crossing(images[q].segment, from, at, tolerance());
-            // What is seen through a corner of two walls, as on the diagonal of a box, is the first one's.
-            if (here >= 0 && here < (chains.place_of(q) < chain ? fraction + corner : fraction - corner))
-                return -1;
-        }
-        return passed;
-    }
-};
 
 // Calls found(i) for the particles and images within `radius` of a place.
 template <class Found>
@@ -366,7 +267,10 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, cons
     find_near(particles, grid, radius);
     chains_.find(plates, images_, reach, spacing, may_join);
     place_candidates(grid, radius, spacing);
-    cells_.sort(images_, grid.box(), radius + penetration_allowed * spacing);
+    cells_.sort(
+        static_cast<int64_t>(images_.size()),
+        [&](int64_t k) { return images_[k].near ? &images_[k].segment : nullptr; }, grid.box(),
+        radius + penetration_allowed * spacing);
     find_seeing(particles, grid, images, radius, spacing, threads);
     keep_seen();
     make_contacts(particles);

@@ -9,11 +9,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "clusters.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "plate.hpp"
-#include "plate_cells.hpp"
 #include "plate_chains.hpp"
+#include "segment_cells.hpp"
 
 namespace gp {
 
@@ -85,8 +86,8 @@ struct Walls {
     bool in_reach() const { return !contacts.empty(); }
     int64_t bytes() const;
 
-    // Plates with material right behind them: pairs of particles do not interact through these.
-    const std::vector<Segment> &barriers(const Particles &particles, const CellGrid &grid, double radius);
+    // Plates with material right behind them.
+    const Barriers &barriers(const Particles &particles, const CellGrid &grid, double radius);
 
     // Finds ghosts and contacts within `radius` of the sorted particles. reach: the radius without a skin; may_join: plates
     // that meet become one wall.
@@ -139,8 +140,8 @@ private:
     };
     std::vector<PlateImage> images_; // plates, and in a periodic scene their images
     PlateChains chains_;
-    PlateCells cells_;
-    std::vector<Segment> barriers_;
+    SegmentCells cells_;
+    Barriers barriers_;
     std::vector<WallPlace> places_;
     std::vector<Candidate> candidates_;
     Field<int32_t> seeing_, passed_; // who sees a candidate, and the plate that the way passes
