@@ -30,8 +30,13 @@ struct Sight {
     SegmentCells::Run run = {}; // all of them
 
     double tolerance() const { return 1e-9 * spacing; }
-    // Ends that meet within the joint's tolerance leave no slit.
-    double slack(int32_t image) const { return chains.joined(images[image].plate) ? joint * spacing : tolerance(); }
+    // Where the way passes an image of its own side. Ends that meet within the joint's tolerance leave no slit.
+    double passing(int32_t image, const Vector &from, const Vector &at) const {
+        const PlateChains::Link &link = chains.link(images[image].plate);
+        const double meet = joint * spacing;
+        return crossing(images[image].segment, from, at, link.before < 0 ? tolerance() : meet,
+                        link.after < 0 ? tolerance() : meet);
+    }
     bool is_own(const WallPlace &ghost, int32_t image) const {
         return image == ghost.image || (chains.place_of(image) == chains.place_of(ghost.image) &&
                                         images[image].segment.tangent.dot(images[ghost.image].segment.tangent) > 0);
@@ -73,8 +78,7 @@ struct Sight {
         int32_t passed = -1;
         fraction = INFINITY;
         for (int64_t k = 0; k < own && (passed < 0 || others > 0); ++k)
-            if (const double here = crossing(images[about[k]].segment, from, at, slack(about[k]));
-                here >= 0 && here < fraction) {
+            if (const double here = passing(about[k], from, at); here >= 0 && here < fraction) {
                 fraction = here;
                 passed = about[k];
             }
