@@ -145,6 +145,8 @@ struct ListTable {
     bool valid = false;
     double skin = 0, shifted = 0;
     std::vector<double> plate_x, plate_y;
+    std::vector<int32_t> plate_driven; // by the host: which plates made one wall follows from how they move
+    std::vector<double> plate_vx, plate_vy;
 };
 
 template <class File, class Table, class W> void exchange_lists(File &file, Table &t, W &w) {
@@ -156,6 +158,9 @@ template <class File, class Table, class W> void exchange_lists(File &file, Tabl
     file.array("y", w.list_origin.y);
     file.array("plate_x", t.plate_x);
     file.array("plate_y", t.plate_y);
+    file.array("plate_driven", t.plate_driven);
+    file.array("plate_vx", t.plate_vx);
+    file.array("plate_vy", t.plate_vy);
 }
 
 // In the engine's own order, with the images across the ends of a period.

@@ -27,8 +27,9 @@ namespace gp::stages {
 
 namespace {
 
-constexpr double spacing_strain = 3;        // in which the density makes up for most of the difference
-constexpr double spacing_tolerance = 0.005; // sheared, a square lattice with the smallest horizon has .0066 more than N0
+constexpr double spacing_strain = 3; // in which the density makes up for most of the difference
+constexpr double spacing_tolerance =
+    0.005; // sheared, a square lattice with the smallest horizon has .0066 more than N0
 // Most that it makes of it, over rho0: particles put on top of each other shall part, not burst.
 constexpr double spacing_ceiling = 1.05;
 

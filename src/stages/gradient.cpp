@@ -72,7 +72,8 @@ GP_INLINE void crowd_by_plates(const View &v, int64_t i) {
 
 GP_INLINE Tensor gradient_of(const Moments &m, const SymmetricTensor &g) {
     Tensor l;
-    l << m.mxx * g.xx + m.mxy * g.xy, m.mxx * g.xy + m.mxy * g.yy, m.myx * g.xx + m.myy * g.xy, m.myx * g.xy + m.myy * g.yy;
+    l << m.mxx * g.xx + m.mxy * g.xy, m.mxx * g.xy + m.mxy * g.yy, m.myx * g.xx + m.myy * g.xy,
+        m.myx * g.xy + m.myy * g.yy;
     return l;
 }
 

@@ -171,7 +171,7 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
                 yx += dv * v.ghost_qx[k];
                 yy += dv * v.ghost_qy[k];
             }
-            drop_wall_shear(v.plates[contact.plate], xx, xy, yx, yy);
+            drop_wall_shear(v.plates[contact.listed_plate], xx, xy, yx, yy);
             mxx += xx;
             mxy += xy;
             myx += yx;
@@ -195,7 +195,7 @@ void find_ghost_forces(World &world, const VectorField &u) {
             for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
                 const int32_t i = w.particles_of_ghost.index[k];
                 double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
-                drop_wall_shear(w.plates[w.plate_of_entry[k]], xx, xy, yx, yy);
+                drop_wall_shear(w.plates[world.mirrors.plate_of_entry[k]], xx, xy, yx, yy);
                 const double share = v.stiffness[i] * v.seen_weight[k];
                 fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k] + share * (v.ghost_velocity.x[g] - u.x[i]);
                 fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k] + share * (v.ghost_velocity.y[g] - u.y[i]);
@@ -210,7 +210,7 @@ GP_INLINE Vector force_of_contact(const View &v, const World &world, const Vecto
     const Particles &p = world.particles;
     const ViscousSystem &s = world.viscous;
     const int64_t i = contact.particle;
-    const Plate &plate = v.plates[contact.plate];
+    const Plate &plate = v.plates[contact.listed_plate];
     double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
     drop_wall_shear(plate, xx, xy, yx, yy);
     Vector force = Vector::Zero();

@@ -11,24 +11,12 @@ namespace gp::stages {
 
 namespace {
 
-// Is a place before the plate's surface, not beside its ends?
-bool faces(const Segment &s, const Vector &at) {
-    return s.covers(s.along(at), 0.0);
-}
-
 // Where the particle is by now, for the plate as it was placed when the step began.
 Vector place_over(const World &world, const Contact &contact) {
     const Particles &p = world.particles;
     const Plate &plate = world.walls.plates[contact.plate];
     return world.walls.nearest_image(plate, {p.x[contact.particle], p.y[contact.particle]}) -
            world.clock.dt * plate.velocity();
-}
-
-// The particle may have moved on to another plate of the chain since the lists were made.
-void turn_to_facing(World &world, Contact &contact) {
-    const Particles &p = world.particles;
-    const Vector moved = world.clock.dt * world.walls.plates[contact.plate].velocity();
-    contact.plate = world.walls.facing(contact.plate, Vector(p.x[contact.particle], p.y[contact.particle]) - moved);
 }
 
 // The friction of a blow that stops `approach` within the step, under the blow's pressure on the particle's width. (With
@@ -45,13 +33,12 @@ double friction_of_blow(const World &world, const Contact &contact, double appro
 void wall_contact(World &world) {
     const Particles &p = world.particles;
     const double nearest = contact_distance * world.constants.spacing;
-    for (Contact &contact : world.walls.contacts) {
-        turn_to_facing(world, contact);
+    for (const Contact &contact : world.walls.contacts) {
         const Plate &plate = world.walls.plates[contact.plate];
         const Segment &s = plate.segment();
         const int64_t i = contact.particle;
         const Vector at = place_over(world, contact);
-        if (s.distance(at) >= nearest || !faces(s, at))
+        if (s.distance(at) >= nearest || !world.walls.faces(contact.plate, at))
             continue;
         const Vector relative = Vector(p.vx[i], p.vy[i]) - plate.velocity();
         const double approach = -s.normal.dot(relative);
@@ -81,11 +68,10 @@ namespace {
 // ahead: change of velocity that is still to be expected in this step.
 void hold(World &world, Contact &contact, const Vector &ahead) {
     const Particles &p = world.particles;
-    turn_to_facing(world, contact);
     const Plate &plate = world.walls.plates[contact.plate];
     const Segment &s = plate.segment();
     const Vector at = place_over(world, contact);
-    if (!faces(s, at))
+    if (!world.walls.faces(contact.plate, at))
         return;
     const Vector present = Vector(p.vx[contact.particle], p.vy[contact.particle]) - plate.velocity();
     const Vector expected = present + ahead;

@@ -28,7 +28,8 @@ double surface_rate(const World &world, const Contact &contact, double direction
     const Segment &s = plate.segment();
     const double dt = world.clock.dt;
     const Vector velocity(p.vx[i] - dt * p.ax[i], p.vy[i] - dt * p.ay[i]);
-    const Vector at = world.walls.nearest_image(plate, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was then
+    const Vector at =
+        world.walls.nearest_image(plate, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was then
     const double mean = rate_at_wall(s, at, direction * s.tangent.dot(velocity - plate.velocity()), c.spacing);
     const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
     return mean + c.one_sided.share(s.distance(at) / c.horizon) * (mean - inside);
