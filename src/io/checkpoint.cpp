@@ -275,8 +275,8 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
     check.not_negative("time_left", c.time_left);
     check.require(c.reason >= GP_DT_NONE && c.reason <= GP_DT_RETRY, "no such reason of a time step");
     const Ledger &l = w.ledger;
-    for (const double value : {l.initial, l.reference_height, l.dissipated, l.penalty, l.walls, l.diffusion, l.spacing, l.bulk,
-                               l.collisions, l.side_walls, l.plate_work, l.largest_kinetic, l.wound})
+    for (const double value : {l.initial, l.reference_height, l.dissipated, l.penalty, l.walls, l.diffusion, l.spacing,
+                               l.bulk, l.collisions, l.side_walls, l.plate_work, l.largest_kinetic, l.wound})
         check.finite("ledger", value);
     for (const int64_t number : {c.step, w.collisions, w.retries, w.viscous.newton, w.viscous.linear,
                                  w.viscous.failures, static_cast<int64_t>(w.viscous.last)})

@@ -113,9 +113,8 @@ template <bool Adjoint> void close_books(World &world) {
 
     Ledger &ledger = world.ledger;
     ledger.plate_work -= dt * plate_power;
-    ledger.dissipated +=
-        total.plastic + total.bulk + total.diffused + total.spaced + total.collision_loss + total.side_walls + penalty +
-        lost_at_walls;
+    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.spaced + total.collision_loss +
+                         total.side_walls + penalty + lost_at_walls;
     ledger.penalty += penalty;
     ledger.walls += lost_at_walls;
     ledger.bulk += total.bulk;

@@ -96,8 +96,8 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
             const double other = v.density(j), others = v.colliding[j];
             const Lanes most = choose(partners > others, partners, Lanes{} + others);
             // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
-            Lanes impulse =
-                where(approach > 0.0, where(r2 < v.distance2(pressures, j), approach * other / ((own + other) * most * r2)));
+            Lanes impulse = where(
+                approach > 0.0, where(r2 < v.distance2(pressures, j), approach * other / ((own + other) * most * r2)));
             if (partly)
                 impulse = v.clusters.seen(impulse, k);
             du -= impulse * dx;
@@ -122,11 +122,9 @@ void collide(World &world) {
     update_images(world);
     world.images.copy(p.pressure);
     // sigma K^-1 has done its work: its first row holds the velocity changes.
-    const View view{Clusters(world),  p.x.data(),      p.y.data(),
-                    p.vx.data(),      p.vy.data(),     distance * distance,
-                    loose * loose,    p.pressure.data(),
-                    &world.constants, p.column.data(), world.colliding.data(),
-                    p.cxx.data(),     p.cxy.data()};
+    const View view{Clusters(world),        p.x.data(),    p.y.data(),        p.vx.data(),      p.vy.data(),
+                    distance * distance,    loose * loose, p.pressure.data(), &world.constants, p.column.data(),
+                    world.colliding.data(), p.cxx.data(),  p.cxy.data()};
     for_each_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;

@@ -27,8 +27,9 @@ namespace gp::stages {
 
 namespace {
 
-constexpr double spacing_strain = 3;        // in which the density makes up for most of the difference
-constexpr double spacing_tolerance = 0.005; // sheared, a square lattice with the smallest horizon has .0066 more than N0
+constexpr double spacing_strain = 3; // in which the density makes up for most of the difference
+constexpr double spacing_tolerance =
+    0.005; // sheared, a square lattice with the smallest horizon has .0066 more than N0
 // Most that it makes of it, over rho0: particles put on top of each other shall part, not burst.
 constexpr double spacing_ceiling = 1.05;
 
@@ -36,13 +37,13 @@ constexpr double spacing_ceiling = 1.05;
 
 void density_of_spacing(World &world) {
     Particles &p = world.particles;
-    const double c2 = world.constants.sound_speed * world.constants.sound_speed;
     const double inverse = 1.0 / world.constants.lattice.number_density;
     const double strains = world.clock.dt / spacing_strain;
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         double lost = 0;
         for (int64_t i = begin; i < end; ++i) {
-            const double rest = world.material_of(i).density, before = p.density[i];
+            const MaterialConstants &m = world.material_of(i);
+            const double rest = m.density, before = p.density[i];
             double target = rest * std::min(p.crowding[i] * inverse - spacing_tolerance, spacing_ceiling);
             if (target <= before)
                 continue;
@@ -51,10 +52,11 @@ void density_of_spacing(World &world) {
             const double dxx = 0.5 * (p.lxx[i] - p.lyy[i]), dxy = 0.5 * (p.lxy[i] + p.lyx[i]);
             const double pace = strains * 2 * std::sqrt(dxx * dxx + dxy * dxy);
             const double after = before + pace / (1 + pace) * (target - before);
-            lost += compression_energy(before / rest, rest) - compression_energy(after / rest, rest); // over c0^2
+            lost +=
+                compression_energy(before / rest, m.bulk_modulus) - compression_energy(after / rest, m.bulk_modulus);
             p.density[i] = after;
         }
-        world.sums[block].spaced = p.volume * c2 * lost;
+        world.sums[block].spaced = p.volume * lost;
     });
 }
 
