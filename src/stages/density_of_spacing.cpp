@@ -12,7 +12,7 @@
 // stretched first become whole, which takes no energy.
 //
 // Measured on disordered layers of 10 | 20 spacings at 26 degrees, mean height over that of the start from 6 to 12 s | from
-// 4 to 8 s (without this .8 and falling: .2 after 20 s | .97), by spacing_strain:
+// 4 to 8 s (without this .72 | .95, and falling), by spacing_strain:
 //   1 1.014 | 1.001    2 1.010 | 1.000    3 1.004 | .998    5 .998 | .997    10 .986 | .995
 // with a ceiling of 1.02 1.002, of 1.2 1.003. What N has to have more than N0 before it counts is lost in the end, under a
 // loaded lid as well (a hundredth: .990 of the height; none: .998). At once, or within 30 dl / c0 in place of a strain,
