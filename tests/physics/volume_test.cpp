@@ -96,7 +96,7 @@ TEST(Volume, OfAnInclinedLayerIsKeptAndItFlowsAsBagnolds) {
     const ShakenLayer::Means m = layer.run(16, [&](double y) { return bagnold(slope, y); });
     std::printf("  height %.4f, surface velocity over Bagnold's %.4f\n", m.height, m.surface);
     EXPECT_NEAR(m.height, 1, 0.01);
-    EXPECT_NEAR(m.surface, 1, 0.025);
+    EXPECT_NEAR(m.surface, 1, 0.02);
     const gp_state s = layer.sim.state();
     EXPECT_LT(s.spacing_dissipated, 0); // it compresses: by what the sinking layer gives
     EXPECT_GT(s.spacing_dissipated, -0.01 * s.dissipated);
@@ -121,15 +121,16 @@ TEST(Volume, OfALayerUnderALoadedLidIsKept) {
     EXPECT_NEAR(late, early, 0.002); // and stays there
 }
 
-// The tie is part of the density by continuity, not of its diffusion. Without diffusion each density is its own, and two thirds
-// of the particles bear nothing: the layer stands higher by a few hundredths. It sank to .66 in 12 s.
+// The tie is part of the density by continuity, not of its diffusion: without either a layer sank to .66 in 12 s. Without
+// diffusion each density is its own, two thirds of the particles bear nothing, and as the tie raises densities and lowers none,
+// the layer stands higher: by .04 to .08 over three seeds.
 TEST(Volume, IsKeptWithoutDensityDiffusion) {
     const double slope = 26;
     ShakenLayer layer(8, slope, 1, 0);
     const ShakenLayer::Means m = layer.run(8, [&](double y) { return bagnold(slope, y); });
     std::printf("  height %.4f, at most %.4f\n", m.height, m.highest);
     EXPECT_GT(m.height, 0.99);
-    EXPECT_LT(m.highest, 1.08);
+    EXPECT_LT(m.highest, 1.1);
     EXPECT_EQ(layer.sim.state().diffusion_dissipated, 0);
 }
 
