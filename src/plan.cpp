@@ -59,8 +59,11 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads velocity; writes ghost velocity
         {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_velocity, in_reach, none_near},
-        // reads position, velocity; writes shape tensor, velocity gradient; with density diffusion also reads density and
-        // stress, and writes what is exchanged: one loop over pairs for both
+        // reads pressure, stress; writes which particles flow
+        {"flowing", t.particles, "densities are tied to each other and to the spacing where it flows", no_particles,
+         stages::flowing, nullptr, ""},
+        // reads position, velocity; writes shape tensor, velocity gradient and, where it flows, number density; with density
+        // diffusion also reads density, and writes what is exchanged: one loop over pairs for all
         {"gradient", t.particles, t.diffusion ? "particles interact; with the pair sums of density_diffusion"
                                               : "particles interact",
          no_particles, t.diffusion ? stages::gradient_and_exchange : stages::gradient, nullptr, ""},
@@ -68,8 +71,8 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"density_diffusion", t.particles && t.diffusion, "density_diffusion > 0", "density_diffusion is 0",
          stages::density_diffusion, nullptr, ""},
         // reads number density, velocity gradient; writes density
-        {"density_of_spacing", t.particles && t.diffusion, "density_diffusion > 0: so is the number density known",
-         "density_diffusion is 0", stages::density_of_spacing, nullptr, ""},
+        {"density_of_spacing", t.particles, "what flows keeps its volume", no_particles, stages::density_of_spacing,
+         nullptr, ""},
         // reads velocity gradient; writes density, pressure
         {"density", t.particles, "density by continuity", no_particles, stages::density, nullptr, ""},
         // reads velocity gradient, pressure; writes stress, sigma K^-1
@@ -200,9 +203,11 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         field_entry("stressed", t.penalty,
                     t.penalty ? "the zero-energy penalty acts on stressed material" : "zero_energy_penalty is 0",
                     bytes_of(p.stressed)));
-    entries.push_back(field_entry("flowing", t.diffusion,
-                                  t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0",
-                                  bytes_of_all(p.flowing, p.bearing, p.crowding)));
+    const char *by_number = "the density is that of the positions";
+    optional("flowing", !viscous, "densities are tied where it flows", by_number, bytes_of(p.flowing));
+    optional("crowding", !viscous, "what flows keeps its volume", by_number, bytes_of(p.crowding));
+    entries.push_back(field_entry(
+        "bearing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0", bytes_of(p.bearing)));
     const bool flights = t.plates && !by_number_density(t.scheme);
     entries.push_back(field_entry("carried", flights,
                                   flights     ? "grains in flight above a plate carry no stress"

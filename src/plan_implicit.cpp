@@ -16,6 +16,7 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         rows.same("update_neighbors"),
         rows.same("keep_fields"),
         rows.other("wall_velocity", stages::wall_volume_velocity),
+        rows.same("flowing"),
         rows.same("gradient"),
         rows.same("density_diffusion"),
         rows.same("density_of_spacing"),

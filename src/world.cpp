@@ -14,9 +14,10 @@ std::unique_ptr<World> make_world(const Scene &scene) {
 
     Particles &p = world->particles;
     p.volume = c.volume;
-    p.allocate(scene.particle_count(), {c.penalty > 0, scene.config().density_diffusion > 0,
-                                        !scene.plates().empty() && !by_number_density(c.scheme),
-                                        c.scheme != Scheme::paper_local, by_number_density(c.scheme)});
+    p.allocate(scene.particle_count(),
+               {c.penalty > 0, !by_number_density(c.scheme), scene.config().density_diffusion > 0,
+                !scene.plates().empty() && !by_number_density(c.scheme), c.scheme != Scheme::paper_local,
+                by_number_density(c.scheme)});
     const std::vector<double> pressure = scene.initial_pressure(c);
     for (int64_t i = 0; i < p.count; ++i) {
         p.id[i] = i;

@@ -436,8 +436,8 @@ typedef struct gp_state {
     double dt_limit;               /* s, the largest time_step that is stable for this scene: for waves, loaded plates and the
                                       coefficients that damp, not for the flow */
     double max_compression;        /* largest density over the material's own so far, less 1 */
-    double spacing_dissipated;     /* J/m, the part of dissipated that the density took where it followed the spacing of
-                                      the particles: below 0, it compresses */
+    double spacing_dissipated;     /* J/m, the part that making the density follow the spacing of the particles took: below 0,
+                                      it compresses what flows */
 } gp_state;
 
 /* The state at this instant; state->struct_size has to be set. */

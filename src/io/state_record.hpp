@@ -36,6 +36,7 @@ template <class Visit> void for_each_observable(const gp_state &s, const Visit &
     visit("penalty_dissipated", "J m-1", s.penalty_dissipated);
     visit("wall_dissipated", "J m-1", s.wall_dissipated);
     visit("diffusion_dissipated", "J m-1", s.diffusion_dissipated);
+    visit("spacing_dissipated", "J m-1", s.spacing_dissipated);
     visit("bulk_dissipated", "J m-1", s.bulk_dissipated);
     visit("collision_dissipated", "J m-1", s.collision_dissipated);
     visit("channel_dissipated", "J m-1", s.channel_dissipated);

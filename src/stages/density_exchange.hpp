@@ -16,14 +16,6 @@ struct ExchangeView {
     double largest_pace;                 // sum of w
     bool one_density;
     double *change;
-    double *crowding; // sum of w
-
-    GP_INLINE bool flows(int64_t first, int64_t last) const {
-        double any = 0;
-        for (int64_t i = first; i < last; ++i)
-            any += flowing[i];
-        return any > 0;
-    }
 };
 
 // Fills what neighbours are read of.
@@ -34,7 +26,7 @@ struct NoExchange {
     GP_INLINE void add(int32_t, const Lanes &, const Lanes &, const Lanes &) {}
     GP_INLINE void finish(const ExchangeView &v, int64_t i, int) const {
         if (v.change)
-            v.change[i] = v.crowding[i] = 0;
+            v.change[i] = 0;
     }
 };
 
@@ -43,7 +35,7 @@ template <bool OneDensity> struct Exchange {
     const double *__restrict rest, *__restrict inverse_rest;
     Lanes own, own_density, own_rest{}, own_inverse{}, stretched{};
     Lanes half_x, half_y; // weight counts between particles that both bear some
-    Lanes sum{}, pace{}, all{};
+    Lanes sum{}, pace{};
 
     GP_INLINE Exchange(const ExchangeView &v, const LanePlaces &places)
         : density(v.density), excess(v.excess), flowing(v.flowing), bears(v.bears), rest(v.rest),
@@ -60,7 +52,6 @@ template <bool OneDensity> struct Exchange {
 
     GP_INLINE void add(int32_t j, const Lanes &weight, const Lanes &dx, const Lanes &dy) {
         const Lanes w = weight * flowing[j];
-        all += weight;
         const double other = excess[j];
         const Lanes borne = (own_density + density[j]) * bears[j] * (half_x * dx + half_y * dy);
         if (OneDensity) {
@@ -84,7 +75,6 @@ template <bool OneDensity> struct Exchange {
         const double others = pace[lane] - 1;
         const double exchanged = others > v.largest_pace ? v.largest_pace / others * sum[lane] : sum[lane];
         v.change[i] = flowing[i] > 0 ? v.rate * exchanged : 0.0;
-        v.crowding[i] = flowing[i] > 0 ? all[lane] - 1 : 0.0; // without itself
     }
 };
 

@@ -74,8 +74,8 @@ std::vector<uint64_t> scalars(const Sim &sim, int32_t plates) {
     std::vector<uint64_t> bits = snapshot(sim, plates);
     bits.erase(bits.begin(), bits.begin() + 15 * sim.count());
     const gp_state s = sim.state();
-    for (const double value : {s.diffusion_dissipated, s.channel_dissipated, s.max_compression, s.dt_limit,
-                               static_cast<double>(s.dt_reason), static_cast<double>(s.retries)})
+    for (const double value : {s.diffusion_dissipated, s.spacing_dissipated, s.channel_dissipated, s.max_compression,
+                               s.dt_limit, static_cast<double>(s.dt_reason), static_cast<double>(s.retries)})
         bits.push_back(bits_of(value));
     return bits;
 }
