@@ -96,6 +96,7 @@ struct Constants {
     double viscous_step;             // s, largest step that is stable for the coefficients that damp
     double contrast_step;            // s, largest step that is stable where materials of different density meet
     double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
+    double elastic_penalty;          // the same inside the yield surface, over that
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
 };

@@ -142,8 +142,8 @@ typedef struct gp_config {
                                     reported one; with GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0
                                     [1e-6] */
     double collision_distance;   /* dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9] */
-    double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5
-                                    [the scheme's own: 0.02] */
+    double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; inside the yield
+                                    surface at least 0.2 with GP_STRESS_ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02] */
     double density_diffusion;    /* smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1
                                     [the scheme's own: 0.2] */
     double channel_width;        /* m, W between the side walls; 0: none. Their friction, averaged over the width, is
