@@ -101,6 +101,10 @@ struct Constants {
     std::vector<int32_t> body_material;
 };
 
+struct InitialStress {
+    double pressure = 0, sxx = 0, sxy = 0; // Pa
+};
+
 class Scene {
 public:
     explicit Scene(const gp_config &config); // throws gp::Error
@@ -128,8 +132,8 @@ public:
     int64_t particle_count() const { return static_cast<int64_t>(x.size()); }
 
     Constants constants() const;
-    // Initial pressure of every particle, Pa (gp_column.initial_pressure).
-    std::vector<double> initial_pressure(const Constants &constants) const;
+    // With which every particle begins (gp_column.initial_pressure).
+    std::vector<InitialStress> initial_stress(const Constants &constants) const;
 
     // Initial positions and velocities, in the order of id.
     std::vector<double> x, y, vx, vy;
