@@ -87,9 +87,10 @@ constexpr double contrast_share = 1.0;
 // .1 s, the one stress-free, and a vertical face of mu_s = 1.5 crumbles. Velocity alone is penalised: nothing at rest.
 //
 // Column a = 1.25 of mu_s = 1.5, peak over its height at .5 s, L/dl = 16 | 32, by this value:
-//   .02 .834 | .793    .1 .998 | .944    .2 .998 | .999    .5 .998 | .999
-// and of 21 / 32 degrees, R90 over L/2 with jitter, 8 | 6 runs: .02 1.036 | 1.114, .1 1.037 | 1.116, .2 1.035 | 1.113,
-// .5 1.027 | 1.110 (peak/L .420 | .414, .418 | .414, .420 | .414, .419 | .414).
+//   horizon 4: .02 .834 | .793    .1 .998 | .896    .2 .998 | .999    .5 .998 | .999
+//   horizon 3: .02 .998 | .999    .1 .998 | .999    .2 .999 | .999    .5 .999 | .999
+// and of 21 / 32 degrees with jitter, peak / L and R90, 8 | 6 runs:
+//   .02 .4197 1.036 | .4140 1.114    .1 .4187 1.024 | .4138 1.113    .2 .4194 1.036 | .4140 1.116    .5 .4202 1.023 | .4149 1.115
 constexpr double least_elastic_penalty = 0.2;
 
 struct Range {
