@@ -87,16 +87,17 @@ private:
                (0.5 * side * depth_of(body)) * outward_;
     }
 
-    // Calls visit(point) for each spacing along a face of a body.
-    template <class Visit> int64_t for_each_cell(const Body &body, int side, const Visit &visit) const {
-        return for_each_cell_of(face_centre(body, side), along(), length_of(body), visit);
-    }
+    // Calls visit(point) for each spacing of a length.
     template <class Visit>
-    int64_t for_each_cell_of(const Vector &centre, const Vector &along, double length, const Visit &visit) const {
+    int64_t for_each_cell(const Vector &centre, const Vector &along, double length, const Visit &visit) const {
         const auto cells = static_cast<int64_t>(std::round(length / spacing_));
         for (int64_t k = 0; k < cells; ++k)
             visit(Vector(centre + along * ((static_cast<double>(k) + 0.5) * spacing_ - 0.5 * length)));
         return cells;
+    }
+    // The same along a face of a body.
+    template <class Visit> int64_t for_each_cell(const Body &body, int side, const Visit &visit) const {
+        return for_each_cell(face_centre(body, side), along(), length_of(body), visit);
     }
 
     // Does this face of a body lie at the point?
@@ -158,63 +159,66 @@ private:
         return least;
     }
 
-    // Does the point lie at the side of another column?
-    bool at_side(const Body &body, int side, const Vector &point) const {
-        const Vector apart = point - side_centre(body, side);
-        return std::abs(along().dot(apart)) < 0.5 * spacing_ && std::abs(outward_.dot(apart)) < 0.5 * depth_of(body);
-    }
     Vector side_centre(const Body &body, int side) const {
         return Vector(body.x_min + 0.5 * body.width, body.y_min + 0.5 * body.height) +
                (0.5 * side * length_of(body)) * along();
     }
 
-    // A side is free where neither plates nor borne columns cover half of it. One side is enough, as what is free there
-    // presses on nothing at the other; and columns side by side are one.
+    // Does column c lie beside b at the point of b's side?
+    bool lies_beside(std::size_t c, int side, const Vector &point) const {
+        const Body &body = scene_.bodies()[c];
+        const Vector apart = point - side_centre(body, -side);
+        return borne_[c] && std::abs(along().dot(apart)) < 0.5 * spacing_ &&
+               std::abs(outward_.dot(apart)) < 0.5 * depth_of(body);
+    }
+
+    // Is half of a side covered, by the points that are?
+    template <class Covered> bool is_covered(std::size_t b, int side, const Covered &covered) const {
+        const Body &body = scene_.bodies()[b];
+        int64_t count = 0;
+        const int64_t cells = for_each_cell(side_centre(body, side), outward_, depth_of(body),
+                                            [&](const Vector &point) { count += covered(point); });
+        return 2 * count >= cells;
+    }
+
+    bool has_free_side(std::size_t b) const {
+        const auto covered_at = [&](int side) {
+            return [this, b, side](const Vector &point) {
+                for (const PlateSpec &plate : scene_.plates())
+                    if (plate.segment.normal.dot(side * along()) < -0.99 &&
+                        plate.segment.nearest(point) < 0.5 * spacing_)
+                        return true;
+                for (std::size_t c = 0; c < borne_.size(); ++c)
+                    if (c != b && lies_beside(c, side, point))
+                        return true;
+                return false;
+            };
+        };
+        return !is_covered(b, -1, covered_at(-1)) || !is_covered(b, 1, covered_at(1));
+    }
+
+    // One free side is enough, as a column that presses on nothing there presses on nothing at the other either; and columns
+    // side by side are one.
     void find_open() {
-        const std::vector<Body> &bodies = scene_.bodies();
-        open_.assign(bodies.size(), false);
+        open_.assign(borne_.size(), false);
         if (horizontal() && scene_.period())
             return;
-        const auto covers = [&](std::size_t c, int side, const Vector &point) {
-            return borne_[c] && at_side(bodies[c], -side, point);
+        std::vector<std::size_t> found;
+        const auto open = [&](std::size_t b) {
+            open_[b] = true;
+            found.push_back(b);
         };
-        const auto share = [&](std::size_t b, int side, const auto &found) {
-            int64_t count = 0;
-            const int64_t cells = for_each_cell_of(side_centre(bodies[b], side), outward_, depth_of(bodies[b]),
-                                                   [&](const Vector &point) { count += found(point); });
-            return std::make_pair(count, cells);
-        };
-        for (std::size_t b = 0; b < bodies.size(); ++b)
-            for (const int side : {-1, 1}) {
-                if (!borne_[b])
-                    continue;
-                const auto [count, cells] = share(b, side, [&](const Vector &point) {
-                    for (const PlateSpec &plate : scene_.plates())
-                        if (plate.segment.normal.dot(side * along()) < -0.99 &&
-                            plate.segment.nearest(point) < 0.5 * spacing_)
-                            return true;
-                    for (std::size_t c = 0; c < bodies.size(); ++c)
-                        if (c != b && covers(c, side, point))
-                            return true;
-                    return false;
-                });
-                open_[b] = open_[b] || 2 * count < cells;
-            }
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (std::size_t b = 0; b < bodies.size(); ++b)
-                for (const int side : {-1, 1}) {
-                    if (!borne_[b] || open_[b])
-                        continue;
-                    const auto [count, cells] = share(b, side, [&](const Vector &point) {
-                        for (std::size_t c = 0; c < bodies.size(); ++c)
-                            if (c != b && open_[c] && covers(c, side, point))
-                                return true;
-                        return false;
-                    });
-                    if (2 * count >= cells)
-                        open_[b] = changed = true;
-                }
+        for (std::size_t b = 0; b < borne_.size(); ++b)
+            if (borne_[b] && has_free_side(b))
+                open(b);
+        while (!found.empty()) {
+            const std::size_t c = found.back();
+            found.pop_back();
+            for (std::size_t b = 0; b < borne_.size(); ++b)
+                for (const int side : {-1, 1})
+                    if (borne_[b] && !open_[b] &&
+                        is_covered(b, side, [&](const Vector &point) { return lies_beside(c, side, point); }))
+                        open(b);
         }
     }
 
