@@ -30,7 +30,7 @@ struct MaterialLanes {
 // Share of the penalty of a particle that sees plates: none along plates without friction of their own, and no more inside
 // the yield surface than where it flows. The ghosts' answer to it is not its adjoint, and with ten times as much they fed a
 // deposit (21 / 32 degrees, L/dl = 16, horizon 3 dl), which trembled on at 5e-5 m/s; so it rests by 6 s, 1e-7 m/s.
-double penalty_near_plates(const World &world, int64_t i, double share) {
+GP_INLINE double penalty_near_plates(const World &world, int64_t i, double share) {
     if (touches_slip(world, i))
         return 0;
     const bool sees = world.walls.contact_start[i + 1] > world.walls.contact_start[i];
@@ -99,7 +99,7 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         const int64_t last = first + lane_count < end ? first + lane_count : end;
         if (Penalty) {
             Lanes stressed = where(pressure > 0.0, choose(elastic, Lanes{} + stiffer, Lanes{} + 1.0));
-            if (near_plates)
+            if (near_plates && world.walls.contact_start[first] < world.walls.contact_start[last])
                 for (int64_t i = first; i < last; ++i)
                     stressed[i - first] = penalty_near_plates(world, i, stressed[i - first]);
             const Lanes share = half_penalty * stressed;
