@@ -41,7 +41,7 @@ struct Particles {
     Field<double> lxx, lxy, lyx, lyy; // 1/s, velocity gradient L_ab = du_a/dr_b
     Field<double> gxx, gxy, gyy;      // 1/m2, inverse shape tensor K^-1
     Field<double> cxx, cxy, cyx, cyy; // sigma K^-1, less the penalty's half of L: what a neighbour needs of a particle
-    Field<double> stressed;           // 1 where p > 0 and the penalty acts, else 0; only with the penalty
+    Field<double> stressed;           // share of the penalty: where p > 0, more inside the yield surface; only with it
     Field<double> carried;            // share of its stress that a particle near a plate carries; only with plates
     Field<double> flowing;            // 1 at yield or without stress, else 0; only where the density is integrated
     Field<double> crowding;           // sum of w where it flows, plates included, else 0; only with that

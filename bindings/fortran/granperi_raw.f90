@@ -86,7 +86,8 @@ module granperi_raw
             !! GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0 [1e-6]
         real(c_double) :: collision_distance !! dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9]
         real(c_double) :: zero_energy_penalty
-            !! of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
+            !! of the velocity that the gradient does not see, in rho c0 / dl; inside the yield surface at least 0.2
+            !! with GP_STRESS_ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
         real(c_double) :: density_diffusion
             !! smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1 [the scheme's own: 0.2]
         real(c_double) :: channel_width
@@ -134,7 +135,7 @@ module granperi_raw
         real(c_double) :: i0 !! I at which mu is half way between; > 0 [0.3]
     end type
 
-    !> The pressure with which a column begins.
+    !> The stress with which a column begins.
     integer(c_int32_t), parameter :: GP_INITIAL_HYDROSTATIC = 0
         !! in balance with the plates that support the column: no shock at the start
     integer(c_int32_t), parameter :: GP_INITIAL_NONE = 1 !! none: gravity sets in suddenly
@@ -152,7 +153,11 @@ module granperi_raw
             !! GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the opposite face, for
             !! each face of normal n into which gravity presses and at least half of which rests on plates or on other
             !! hydrostatic columns so borne; to it is added what rests on the opposite face: such columns, and the
-            !! normal_pressure of plates. 0 where nothing bears. No effect with GP_DENSITY_NUMBER
+            !! normal_pressure of plates. 0 where nothing bears. With GP_STRESS_ELASTIC, where one such face alone bears
+            !! and no plate loads the other: the shear stress rho g.t depth along that face too, as far as the friction
+            !! of the material and of the plates under it bears it; and where a side is free and mu_s >= 1, so that the
+            !! friction holds it, no stress across: half the pressure, the other half as deviator. No effect with
+            !! GP_DENSITY_NUMBER
     end type
 
     !> What the wall does to the tangential velocity.
@@ -329,6 +334,9 @@ module granperi_raw
             !! s, the largest time_step that is stable for this scene: for waves, loaded plates and the coefficients
             !! that damp, not for the flow
         real(c_double) :: max_compression !! largest density over the material's own so far, less 1
+        real(c_double) :: spacing_dissipated
+            !! J/m, the part of dissipated that the density took where it followed the spacing of the particles: below
+            !! 0, it compresses
     end type
 
     type, bind(c) :: gp_load

@@ -142,8 +142,8 @@ typedef struct gp_config {
                                     reported one; with GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0
                                     [1e-6] */
     double collision_distance;   /* dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9] */
-    double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5
-                                    [the scheme's own: 0.02] */
+    double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; inside the yield
+                                    surface at least 0.2 with GP_STRESS_ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02] */
     double density_diffusion;    /* smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1
                                     [the scheme's own: 0.2] */
     double channel_width;        /* m, W between the side walls; 0: none. Their friction, averaged over the width, is
@@ -190,7 +190,7 @@ typedef struct gp_material {
 /* Fills *material with glass beads. size: sizeof(gp_material). */
 GP_API gp_status gp_material_init(gp_material *material, size_t size);
 
-/* The pressure with which a column begins. */
+/* The stress with which a column begins. */
 enum {
     GP_INITIAL_HYDROSTATIC = 0, /* in balance with the plates that support the column: no shock at the start */
     GP_INITIAL_NONE = 1         /* none: gravity sets in suddenly */
@@ -206,6 +206,10 @@ typedef struct gp_column {
                                  opposite face, for each face of normal n into which gravity presses and at least half of
                                  which rests on plates or on other hydrostatic columns so borne; to it is added what rests on
                                  the opposite face: such columns, and the normal_pressure of plates. 0 where nothing bears.
+                                 With GP_STRESS_ELASTIC, where one such face alone bears and no plate loads the other: the
+                                 shear stress rho g.t depth along that face too, as far as the friction of the material and
+                                 of the plates under it bears it; and where a side is free and mu_s >= 1, so that the
+                                 friction holds it, no stress across: half the pressure, the other half as deviator.
                                  No effect with GP_DENSITY_NUMBER */
 } gp_column;
 

@@ -241,9 +241,9 @@ TEST(NoFriction, IsADamBreak) {
 // mu >= 1 holds a free vertical face. The exact static state, no stress across and the weight upright, is not that of the
 // hydrostatic start: what the release of its pressure tears open has no strength, and the column crumbles to about .8 H. It should
 // stand; what is asserted is what is true: it does not flow out as beads do, and stops.
-TEST(MuchFriction, CrumblesButStops) {
+TEST(MuchFriction, Stands) {
     gp_material m = of_friction(1.5);
     const gp_state strong = deposit(m, config(Collapse::length / resolution), 2), weak = deposit(beads());
-    EXPECT_GT(strong.peak_height, 0.7 * Collapse::height);
+    EXPECT_GT(strong.peak_height, 0.97 * Collapse::height); // tau = p on a vertical face
     EXPECT_LT(strong.x_right - strong.x_left, 0.9 * (weak.x_right - weak.x_left));
 }

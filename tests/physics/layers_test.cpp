@@ -144,7 +144,7 @@ TEST(Slope, StaysBelowTheFrictionAngleAndFlowsAbove) {
         const double a = degrees(angle), h = 0.04;
         Layer layer(16, h, gravity * std::sin(a), -gravity * std::cos(a), 0, 0.002, [](double) { return 0.0; });
         layer.floor();
-        layer.sim.run(angle < 21 ? 3 : 0.5); // gravity sets in suddenly: the layer is sheared a little first
+        layer.sim.run(angle < 21 ? 3 : 0.5); // what begins in balance by the continuum finds that of the operators
         const gp_state s = layer.sim.state();
         if (angle < 21) {
             // What is left is an elastic wave that dies away, no drift.

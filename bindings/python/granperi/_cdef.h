@@ -268,6 +268,7 @@ typedef struct gp_state {
     int64_t retries;
     double dt_limit;
     double max_compression;
+    double spacing_dissipated;
 } gp_state;
 
 gp_status gp_get_state(gp_sim *sim, gp_state *state);
