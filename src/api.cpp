@@ -353,7 +353,8 @@ gp_status gp_get_state(gp_sim *sim, gp_state *state) {
 gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height) {
     return guard([&] {
         require_stations(n, "x", x, "height", height);
-        const Surface surface(readable(sim).world());
+        const World &world = readable(sim).world();
+        const Surface surface(world, connected_deposit(world));
         for (int64_t k = 0; k < n; ++k)
             if (!surface.height(x[k], height[k]))
                 height[k] = 0;

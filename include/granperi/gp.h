@@ -438,6 +438,21 @@ typedef struct gp_state {
     double max_compression;        /* largest density over the material's own so far, less 1 */
     double spacing_dissipated;     /* J/m, the part of dissipated that the density took where it followed the spacing of
                                       the particles: below 0, it compresses */
+    /* Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached grains too.
+     * Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its marks at .01 L, .05 L,
+     * ...; where a mark falls into a gap it is the gap's middle. In a periodic scene what reaches beyond an end of the
+     * period counts at the other. Unlike the fronts x_left and x_right, which single grains set, they converge with the
+     * spacing. 0 without particles, as the next four */
+    double x_q01, x_q05, x_q25, x_q50, x_q75, x_q95, x_q99;
+    double centre_x, centre_y;     /* m, centre of mass */
+    double detached;               /* share of the mass outside of the connected deposit (of x_left), 0 .. 1: what x_left,
+                                      x_right and the peak do not know of */
+    double volume_drift;           /* mean number density (neighbours within the horizon, with the ghosts behind plates) of
+                                      the particles at yield under pressure, over that of all particles at the start, less
+                                      1: how much denser the particles lie where the material flows than density says.
+                                      Of particles whose horizon is full alone, so that free surfaces have no part in it: at
+                                      the start on the lattice, where there are none. 0 where nothing flows. Some .01 come
+                                      of disorder alone; beyond .02 a warning is given (gp_set_log) */
 } gp_state;
 
 /* The state at this instant; state->struct_size has to be set. */
