@@ -75,7 +75,7 @@ gp_state measure_state(const World &world) {
     s.centre_x = marks.x;
     s.centre_y = marks.y;
     s.detached = marks.detached;
-    s.volume_drift = volume_drift(world);
+    s.volume_drift = drift_of(world, measure_packing(world, Part::flowing));
     s.at_rest = is_at_rest(world, e.kinetic) ? 1 : 0;
     s.collisions = world.collisions;
     s.sound_speed = world.constants.sound_speed;

@@ -196,7 +196,8 @@ bool Surface::height(double x, double &y) const {
     return height(x, surface_radius * spacing_, y, full);
 }
 
-// Stations a quarter spacing and more apart, at particles less than two spacings below the highest.
+// Stations a quarter spacing and more apart, at particles less than two spacings below the highest; and the fronts beside
+// them: against a wall the highest point is at the wall.
 std::vector<double> Surface::stations_near_top() const {
     double top = -INFINITY;
     for (const Point &point : points_)
@@ -207,6 +208,13 @@ std::vector<double> Surface::stations_near_top() const {
         if (point.wall < 0 && point.y > top - 2 * spacing_ && point.x >= left() && point.x <= right() &&
             (stations.empty() || point.x - stations.back() > 0.25 * spacing_))
             stations.push_back(point.x);
+    if (!stations.empty()) {
+        const double first = stations.front(), last = stations.back();
+        if (first - left() < spacing_)
+            stations.push_back(left());
+        if (right() - last < spacing_)
+            stations.push_back(right());
+    }
     return stations;
 }
 

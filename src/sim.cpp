@@ -254,7 +254,8 @@ void Sim::prepare() {
 
     const Packing packing = measure_packing(*world, Part::all);
     world->packing_at_start =
-        packing.particles > 0 ? packing.number_density : world->constants.lattice.number_density;
+        packing.particles > 0 ? packing.number_density
+                              : packing_of_lattice(world->constants.horizon, world->constants.spacing);
 
     set_world(std::move(world));
 }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "kernel.hpp"
 #include "parallel.hpp"
 
 namespace gp {
@@ -10,39 +9,57 @@ namespace gp {
 namespace {
 
 // The horizon about a particle is full if each eighth of its circle has a neighbour in the outermost ring of this width: on
-// the lattice from the last row on whose own neighbours of any weight are all there. Narrower, the lattice itself has gaps.
+// the lattice so are all but the last three rows of a horizon of 4. Narrower, the lattice itself has gaps.
 constexpr double ring = 1.25; // dl
 
-// Eighth of the circle, centred on axes and diagonals, so that no place of a lattice lies on a border.
+// What is at yield flows if it shears by this much within the scene's time scale, that of a free fall: at the tips of a
+// deposit at rest a few grains stay at yield.
+constexpr double least_strain = 0.01;
+
+// Eighth of the circle, centred on axes and diagonals: no place of a lattice lies on a border.
 unsigned eighth_of(double x, double y) {
     const double tan_22 = std::sqrt(2.0) - 1, ax = std::abs(x), ay = std::abs(y);
     if (ay < tan_22 * ax)
-        return x > 0 ? 1u : 2u;
+        return x > 0 ? 1 : 2;
     if (ax < tan_22 * ay)
-        return y > 0 ? 4u : 8u;
-    return (x > 0 ? 16u : 64u) << (y > 0 ? 0 : 1);
+        return y > 0 ? 4 : 8;
+    return x > 0 ? (y > 0 ? 16 : 32) : (y > 0 ? 64 : 128);
 }
+constexpr unsigned all_eighths = 255;
 
+// The sum of (1 - r2/R2)2 about a particle, itself included. This weight is flat where the nearest neighbours are, so it
+// tells how many there are and not how they are arranged: on inclined layers of 10 spacings it is within .002 of what their
+// height says, from a lattice or a jittered start, at horizons of 3 and 4. The operators' own weight errs by -.007 and -.015.
 class Neighborhood {
 public:
     Neighborhood(double x, double y, double radius, double spacing)
-        : x_(x), y_(y), radius_(radius), inner_(radius - ring * spacing) {}
+        : x_(x), y_(y), inverse2_(1 / (radius * radius)), inner_(1 - ring * spacing / radius) {
+        inner_ *= inner_;
+    }
 
     void add(double x, double y) {
-        const double dx = x - x_, dy = y - y_, r = std::hypot(dx, dy);
-        if (r >= radius_)
+        const double dx = x - x_, dy = y - y_, r2 = (dx * dx + dy * dy) * inverse2_;
+        if (r2 >= 1)
             return;
-        sum_ += weight(r, 1.0 / radius_);
-        if (r > inner_)
+        sum_ += (1 - r2) * (1 - r2);
+        if (r2 > inner_)
             eighths_ |= eighth_of(dx, dy);
     }
-    bool full() const { return eighths_ == 255; }
+    bool full() const { return eighths_ == all_eighths; }
     double number_density() const { return sum_; }
 
 private:
-    double x_, y_, radius_, inner_, sum_ = 0;
+    double x_, y_, inverse2_, inner_, sum_ = 1;
     unsigned eighths_ = 0;
 };
+
+bool flows(const World &world, int64_t i) {
+    const Particles &p = world.particles;
+    const double dxx = 0.5 * (p.lxx[i] - p.lyy[i]), dxy = 0.5 * (p.lxy[i] + p.lyx[i]);
+    return p.pressure[i] > 0 &&
+           world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]) &&
+           2 * std::sqrt(dxx * dxx + dxy * dxy) * world.constants.time_scale > least_strain;
+}
 
 } // namespace
 
@@ -50,18 +67,17 @@ Packing measure_packing(const World &world, Part part) {
     const Particles &p = world.particles;
     const Walls &walls = world.walls;
     const double radius = world.constants.horizon;
-    std::vector<Packing> blocks(block_count(p.count)); // sums
+    std::vector<Packing> blocks(block_count(p.count)); // with sums in place of means
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         for (int64_t place = begin; place < end; ++place) {
             const int64_t i = world.particle_listed_at(place);
-            if (part == Part::flowing &&
-                !(p.pressure[i] > 0 &&
-                  world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i])))
+            if (part == Part::flowing && !flows(world, i))
                 continue;
             Neighborhood about(p.x[i], p.y[i], radius, world.constants.spacing);
             for_each_candidate(world.grid, world.images, p.x[i], p.y[i], radius + world.shifted, [&](int64_t there) {
-                if (there != place)
-                    about.add(p.x[world.particle_listed_at(there)], p.y[world.particle_listed_at(there)]);
+                const int64_t j = world.particle_listed_at(there);
+                if (j != i)
+                    about.add(p.x[j], p.y[j]);
             });
             if (!walls.contact_start.empty())
                 for (int64_t c = walls.contact_start[place]; c < walls.contact_start[place + 1]; ++c)
@@ -70,21 +86,34 @@ Packing measure_packing(const World &world, Part part) {
             if (!about.full())
                 continue;
             blocks[block].number_density += about.number_density();
+            blocks[block].density += p.density[i] / world.material_of(i).density;
             ++blocks[block].particles;
         }
     });
     Packing packing;
     for (const Packing &block : blocks) {
         packing.number_density += block.number_density;
+        packing.density += block.density;
         packing.particles += block.particles;
     }
-    if (packing.particles > 0)
+    if (packing.particles > 0) {
         packing.number_density /= static_cast<double>(packing.particles);
+        packing.density /= static_cast<double>(packing.particles);
+    }
     return packing;
 }
 
-double volume_drift(const World &world) {
-    const Packing flowing = measure_packing(world, Part::flowing);
+double packing_of_lattice(double radius, double spacing) {
+    Neighborhood about(0, 0, radius, spacing);
+    const int reach = static_cast<int>(std::ceil(radius / spacing));
+    for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i)
+            if (i != 0 || j != 0)
+                about.add(i * spacing, j * spacing);
+    return about.number_density();
+}
+
+double drift_of(const World &world, const Packing &flowing) {
     return flowing.particles > 0 ? flowing.number_density / world.packing_at_start - 1 : 0.0;
 }
 

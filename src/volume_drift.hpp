@@ -6,16 +6,19 @@
 
 namespace gp {
 
-// Mean number density (sum of the weight over neighbours within the horizon, ghosts included) of particles about which
-// the horizon is full, so that free surfaces have no part in it.
+// Mean number density within the horizon, ghosts included, of particles about which the horizon is full: free surfaces have
+// no part in it.
 struct Packing {
-    double number_density = 0; // 0: there are none
-    int64_t particles = 0;
+    double number_density = 0; // in the measure of volume_drift.cpp
+    double density = 0;        // over the material's own
+    int64_t particles = 0;     // that these are the means of
 };
-enum class Part { all, flowing }; // flowing: at yield under pressure
+enum class Part { all, flowing }; // flowing: at yield under pressure, and shearing
 Packing measure_packing(const World &world, Part part);
 
+double packing_of_lattice(double radius, double spacing);
+
 // gp_state.volume_drift.
-double volume_drift(const World &world);
+double drift_of(const World &world, const Packing &flowing);
 
 } // namespace gp

@@ -130,7 +130,7 @@ struct World {
     double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g lately
     int64_t collisions = 0;
     double max_compression = 0;  // largest density over the material's own so far, less 1
-    double packing_at_start = 0; // volume_drift.hpp: mean number density of particles with a full horizon, or the lattice's
+    double packing_at_start = 0; // volume_drift.hpp; the lattice's if no horizon was full
     StepStart step_start;
     std::vector<Piece> pieces; // of a diverged step, the next one last
     int64_t retries = 0;
