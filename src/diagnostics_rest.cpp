@@ -14,7 +14,8 @@ constexpr double trembling_particles = 2, rest_unbalanced_few = 0.05;
 constexpr double plate_unbalanced = 0.05; // of a plate's load, that the material does not bear
 
 double unbalanced_share_at_rest(int64_t particles) {
-    return std::max(rest_unbalanced, std::min(trembling_particles / static_cast<double>(particles), rest_unbalanced_few));
+    return std::max(rest_unbalanced,
+                    std::min(trembling_particles / static_cast<double>(particles), rest_unbalanced_few));
 }
 
 // The way that a plate has still before it by its own motion, as a box about where it is now.
@@ -48,7 +49,8 @@ bool rests(const World &world, const Plate &plate, double energy) {
     const Segment &s = plate.segment();
     const double mass = s.length * (plate.spec().mass > 0 ? plate.spec().mass : world.constants.plate_mass);
     const double speed = plate.motion().fall_speed, load = plate.spec().load * s.length;
-    return 0.5 * mass * speed * speed <= energy && std::abs(load + s.normal.dot(plate.force)) <= plate_unbalanced * load;
+    return 0.5 * mass * speed * speed <= energy &&
+           std::abs(load + s.normal.dot(plate.force)) <= plate_unbalanced * load;
 }
 
 // Does a plate move, or will it, that the material feels or comes to feel?

@@ -100,7 +100,8 @@ public:
         const double period = surface.x_max_ - surface.x_min_;
         for (const Segment &wall : surface.walls_) {
             const double middle = wall.origin.x() + 0.5 * wall.length * wall.tangent.x();
-            walls_.push_back(std::isfinite(period) ? wall.moved({period * std::round((x - middle) / period), 0}) : wall);
+            walls_.push_back(std::isfinite(period) ? wall.moved({period * std::round((x - middle) / period), 0})
+                                                   : wall);
         }
     }
 

@@ -253,9 +253,9 @@ void Sim::prepare() {
             std::max(world->max_compression, world->particles.density[i] / world->material_of(i).density - 1);
 
     const Packing packing = measure_packing(*world, Part::all);
-    world->packing_at_start =
-        packing.particles > 0 ? packing.number_density
-                              : packing_of_lattice(world->constants.horizon, world->constants.spacing);
+    world->packing_at_start = packing.particles > 0
+                                  ? packing.number_density
+                                  : packing_of_lattice(world->constants.horizon, world->constants.spacing);
 
     set_world(std::move(world));
 }

@@ -170,7 +170,8 @@ TEST(Mass, CountsByMassAndWithWhatIsDetached) {
     EXPECT_NEAR(s.x_q05, 0.05 * all / 100 * width, 1e-9);
     EXPECT_NEAR(s.x_q50, 2 + (0.5 * all - 101) / 300 * width, 1e-9);
     EXPECT_NEAR(s.centre_x, (100 * 0.5 * width + 1 + 300 * (2 + 0.5 * width)) / all, 1e-12);
-    EXPECT_NEAR(s.detached, 301 / all, 1e-12) << "of two sets with as many particles the one with the smallest id counts";
+    EXPECT_NEAR(s.detached, 301 / all, 1e-12)
+        << "of two sets with as many particles the one with the smallest id counts";
 }
 
 TEST(Mass, AMarkInAGapIsItsMiddle) {
