@@ -95,7 +95,8 @@ public:
         for (; k != all.end() && k->x < x + radius; ++k)
             if (k->y > lowest)
                 points_.push_back(*k);
-        std::sort(points_.begin(), points_.end(), [](const Point &a, const Point &b) { return a.y > b.y; });
+        std::sort(points_.begin(), points_.end(),
+                  [](const Point &a, const Point &b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
         // The images of the walls about this x.
         const double period = surface.x_max_ - surface.x_min_;
         for (const Segment &wall : surface.walls_) {

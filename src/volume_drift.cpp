@@ -30,6 +30,10 @@ constexpr unsigned all_eighths = 255;
 // The sum of (1 - r2/R2)2 about a particle, itself included. This weight is flat where the nearest neighbours are, so it
 // tells how many there are and not how they are arranged: on inclined layers of 10 spacings it is within .002 of what their
 // height says, from a lattice or a jittered start, at horizons of 3 and 4. The operators' own weight errs by -.007 and -.015.
+//
+// Sums are in whole units, so that they do not depend on the order of the lists, which an undone step leaves another.
+constexpr int64_t unit = 1 << 24;
+
 class Neighborhood {
 public:
     Neighborhood(double x, double y, double radius, double spacing)
@@ -41,17 +45,25 @@ public:
         const double dx = x - x_, dy = y - y_, r2 = (dx * dx + dy * dy) * inverse2_;
         if (r2 >= 1)
             return;
-        sum_ += (1 - r2) * (1 - r2);
+        sum_ += std::llround((1 - r2) * (1 - r2) * unit);
         if (r2 > inner_)
             eighths_ |= eighth_of(dx, dy);
     }
     bool full() const { return eighths_ == all_eighths; }
-    double number_density() const { return sum_; }
+    int64_t sum() const { return sum_; }
 
 private:
-    double x_, y_, inverse2_, inner_, sum_ = 1;
+    double x_, y_, inverse2_, inner_;
+    int64_t sum_ = unit;
     unsigned eighths_ = 0;
 };
+
+// Where its plate is: ghosts themselves are placed in the next step, and an undone one has done so.
+void add_ghost(const Walls &walls, int32_t ghost, Neighborhood &about) {
+    const Segment &s = walls.plates[walls.ghost_plate[ghost]].segment();
+    const Vector at = s.origin + walls.ghost_along[ghost] * s.tangent - walls.ghost_depth[ghost] * s.normal;
+    about.add(at.x() + (walls.ghost_shift.empty() ? 0.0 : walls.ghost_shift[ghost]), at.y());
+}
 
 bool flows(const World &world, int64_t i) {
     const Particles &p = world.particles;
@@ -66,7 +78,11 @@ Packing measure_packing(const World &world, Part part) {
     const Particles &p = world.particles;
     const Walls &walls = world.walls;
     const double radius = world.constants.horizon;
-    std::vector<Packing> blocks(block_count(p.count)); // with sums in place of means
+    struct Sums {
+        int64_t weights = 0, particles = 0;
+        double density = 0;
+    };
+    std::vector<Sums> blocks(block_count(p.count));
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         for (int64_t place = begin; place < end; ++place) {
             const int64_t i = world.particle_listed_at(place);
@@ -81,23 +97,26 @@ Packing measure_packing(const World &world, Part part) {
             if (!walls.contact_start.empty())
                 for (int64_t c = walls.contact_start[place]; c < walls.contact_start[place + 1]; ++c)
                     for (int64_t k = walls.contacts[c].begin; k < walls.contacts[c].end; ++k)
-                        about.add(walls.ghost_x[walls.ghost_of_contact[k]], walls.ghost_y[walls.ghost_of_contact[k]]);
+                        add_ghost(walls, walls.ghost_of_contact[k], about);
             if (!about.full())
                 continue;
-            blocks[block].number_density += about.number_density();
+            blocks[block].weights += about.sum();
             blocks[block].density += p.density[i] / world.material_of(i).density;
             ++blocks[block].particles;
         }
     });
-    Packing packing;
-    for (const Packing &block : blocks) {
-        packing.number_density += block.number_density;
-        packing.density += block.density;
-        packing.particles += block.particles;
+    Sums all;
+    for (const Sums &block : blocks) {
+        all.weights += block.weights;
+        all.particles += block.particles;
+        all.density += block.density;
     }
-    if (packing.particles > 0) {
-        packing.number_density /= static_cast<double>(packing.particles);
-        packing.density /= static_cast<double>(packing.particles);
+    Packing packing;
+    packing.particles = all.particles;
+    if (all.particles > 0) {
+        packing.number_density =
+            static_cast<double>(all.weights) / static_cast<double>(unit) / static_cast<double>(all.particles);
+        packing.density = all.density / static_cast<double>(all.particles);
     }
     return packing;
 }
@@ -109,7 +128,7 @@ double packing_of_lattice(double radius, double spacing) {
         for (int i = -reach; i <= reach; ++i)
             if (i != 0 || j != 0)
                 about.add(i * spacing, j * spacing);
-    return about.number_density();
+    return static_cast<double>(about.sum()) / static_cast<double>(unit);
 }
 
 double drift_of(const World &world, const Packing &flowing) {
