@@ -88,7 +88,7 @@ struct StepStart {
 
 // What the neighbour lists were made of. A checkpoint keeps it in place of the lists, which it makes anew from it.
 struct ListOrigin {
-    Field<double> x, y;         // m, of the particles in sorted order
+    Field<double> x, y; // m, of the particles in sorted order
     std::vector<Plate::Motion> plates;
 
     int64_t bytes() const { return static_cast<int64_t>((x.capacity() + y.capacity()) * sizeof(double)); }
@@ -129,7 +129,8 @@ struct World {
     double plastic_power = 0;    // W/m, of the last step
     double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g lately
     int64_t collisions = 0;
-    double max_compression = 0; // largest density over the material's own so far, less 1
+    double max_compression = 0;  // largest density over the material's own so far, less 1
+    double packing_at_start = 0; // volume_drift.hpp; the lattice's if no horizon was full
     StepStart step_start;
     std::vector<Piece> pieces; // of a diverged step, the next one last
     int64_t retries = 0;

@@ -301,14 +301,26 @@ module granperi_raw
         real(c_double) :: x_right
             !! m, fronts of the connected deposit: the largest set of particles each within 1.6 dl of another, half a
             !! spacing added
-        real(c_double) :: peak_x !! m, highest point of its surface: x, and y (an absolute coordinate)
-        real(c_double) :: peak_height !! m, highest point of its surface: x, and y (an absolute coordinate)
+        real(c_double) :: peak_x
+            !! m, highest point of its surface: x, and y (an absolute coordinate). Extrapolated from the surface
+            !! smoothed over 6 and 3 dl to one that is not: without bias at a cusp, on a plateau, and beside walls.
+            !! Single grains scatter it by some 0.3 dl. Of a deposit too thin for that, and by itself in space, the
+            !! highest of gp_get_surface
+        real(c_double) :: peak_height
+            !! m, highest point of its surface: x, and y (an absolute coordinate). Extrapolated from the surface
+            !! smoothed over 6 and 3 dl to one that is not: without bias at a cusp, on a plateau, and beside walls.
+            !! Single grains scatter it by some 0.3 dl. Of a deposit too thin for that, and by itself in space, the
+            !! highest of gp_get_surface
         real(c_double) :: max_pressure !! Pa
         integer(c_int32_t) :: at_rest
             !! 1: the material has come to rest: the kinetic energy is below 1e-6 of the scene's energy scale, the
             !! plastic power of the last step would dissipate less than 1e-4 of it in the scene's free-fall time, and no
             !! more than 1 % of the mass is accelerated by more than 0.05 g, on average over some 20 steps (single
-            !! grains may tremble on a plate; of fewer than 200 particles two, but no more than 5 % of the mass). The
+            !! grains may tremble on a plate; of fewer than 200 particles two, but no more than 5 % of the mass). And no
+            !! plate has motion of its own left (a velocity, also of gp_set_plate_velocity, or knots that displace it
+            !! further) that is within the horizon of the box around all particles, or will come so near on its way, as
+            !! straight lines between here and the farthest places that it comes to have it; a plate under a load there
+            !! rests itself: its kinetic energy is below the same 1e-6, and the material bears its load within 5 %. The
             !! energy scale is the largest of the initial energy of the ledger and the largest kinetic energy so far
         integer(c_int64_t) :: collisions !! colliding pairs so far ([1] 2.9), each step's counted anew
         real(c_double) :: wall_seconds !! s of wall-clock time inside the steps so far
@@ -335,8 +347,31 @@ module granperi_raw
             !! that damp, not for the flow
         real(c_double) :: max_compression !! largest density over the material's own so far, less 1
         real(c_double) :: spacing_dissipated
-            !! J/m, the part of dissipated that the density took where it followed the spacing of the particles: below
-            !! 0, it compresses
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
+        real(c_double) :: x_q01
+        real(c_double) :: x_q05
+        real(c_double) :: x_q25
+        real(c_double) :: x_q50
+        real(c_double) :: x_q75
+        real(c_double) :: x_q95
+        real(c_double) :: x_q99
+        real(c_double) :: centre_x !! m, centre of mass
+        real(c_double) :: centre_y !! m, centre of mass
+        real(c_double) :: detached
+            !! share of the mass outside of the connected deposit (of x_left), 0 .. 1: what x_left, x_right and the peak
+            !! do not know of
+        real(c_double) :: volume_drift
+            !! mean number density where the material flows over that at the start, less 1: above 0 it has lost volume,
+            !! whatever its density says. Number density: sum of (1 - r^2 / R^2)^2 over a particle and its neighbours
+            !! within the horizon R, ghosts behind plates included. Flows: at yield, under pressure, and sheared by more
+            !! than 0.01 in the scene's free-fall time. Only particles whose horizon is full count (a neighbour in each
+            !! eighth of its outermost 1.25 dl), so free surfaces have no part in it; at the start all of these, of the
+            !! lattice if there are none. 0 where nothing flows. Layers that keep their height stay within .01; what
+            !! topples and spreads opens up, by some 0.5 dl / height. Above .02 gp_set_log warns
     end type
 
     type, bind(c) :: gp_load
@@ -544,11 +579,12 @@ module granperi_raw
         !> the first step this is GP_E_ARGUMENT: the sound_speed is wrong for the scene. It is found before anything
         !> moves, and the step is undone: fields, their order, clock, energies, plates and loads have the bits of the
         !> last good step. But in a periodic scene particles that have just returned into the period stay there and the
-        !> order is new, and GP_FIELD_NUMBER_DENSITY may differ by rounding. With gp_config.retry_halvings a step that
-        !> diverges is undone and taken as two steps of half its size, one after the other, each of which is halved
-        !> likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the callback and
-        !> the output, with GP_DT_RETRY in gp_state.dt_reason; what is undone nobody sees. After the two halves the size
-        !> is chosen as always. Speeds that ask for too small a step are not retried: the step begins with them.
+        !> order is new, GP_FIELD_NUMBER_DENSITY may differ by rounding, and gp_state.volume_drift by the ghosts that
+        !> are seen anew (by some .001). With gp_config.retry_halvings a step that diverges is undone and taken as two
+        !> steps of half its size, one after the other, each of which is halved likewise if it diverges, up to that many
+        !> times. Each of them is a whole step to the counter, the callback and the output, with GP_DT_RETRY in
+        !> gp_state.dt_reason; what is undone nobody sees. After the two halves the size is chosen as always. Speeds
+        !> that ask for too small a step are not retried: the step begins with them.
         function gp_step(sim, n) bind(c, name="gp_step") result(answer)
             import
             type(c_ptr), value :: sim
@@ -581,7 +617,9 @@ module granperi_raw
         !> thinner than 3 spacings, a time step beyond the stable limit. Later: a step taken anew, compression above 3 %
         !> (not of the schemes of [1]), a plate in reach of material at more than 0.3 sound speeds, and, looked at every
         !> 64 steps, a particle behind a plate, more than 10 % of the dissipation by the zero-energy penalty, an energy
-        !> error above 2 % of the largest energy in the ledger (these two not of the schemes of [1]).
+        !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
+        !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
+        !> the schemes of [1]).
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim
@@ -610,7 +648,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The state at this instant; state->struct_size has to be set.
+        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
@@ -618,9 +656,22 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> The clock alone, which costs nothing: *time (s), *dt (s, of the last step; 0 before the first) and *step
+        !> (steps taken) as in gp_state. Any of the pointers may be NULL.
+        function gp_get_clock(sim, time, dt, step) bind(c, name="gp_get_clock") result(answer)
+            import
+            type(c_ptr), value :: sim
+            real(c_double), intent(inout), optional :: time(*)
+            real(c_double), intent(inout), optional :: dt(*)
+            integer(c_int64_t), intent(inout), optional :: step
+            integer(c_int32_t) :: answer
+        end function
+
         !> Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction
-        !> (radius 2 dl) is 1/2, or half of the largest one at x[k] where that stays below 0.9 (beside walls, at
-        !> fronts); 0 outside the fronts. x, height: shape (n), m. n >= 0.
+        !> (radius 2 dl) is 1/2, or half of the largest one at x[k] where that stays below 0.9 (at fronts); 0 outside
+        !> the fronts. Beside plates the material counts as mirrored in them, and that behind them does not count. The
+        !> smoothing takes half a dl times the slope off a cusp, also off one that a wall makes of a slope. x, height:
+        !> shape (n), m. n >= 0.
         function gp_get_surface(sim, n, x, height) bind(c, name="gp_get_surface") result(answer)
             import
             type(c_ptr), value :: sim

@@ -286,6 +286,8 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
         check.require(number >= 0 && number < most_counted, "a count out of bounds");
     for (const double value : {w.max_compression, w.plastic_power, w.unbalanced_share})
         check.finite("sums", value);
+    check.finite("packing_at_start", w.packing_at_start);
+    check.require(w.packing_at_start > 0, "packing_at_start: not above 0");
     check.not_negative("velocity_span", w.velocity_span);
     check.not_negative("fastest", w.fastest);
 }

@@ -128,6 +128,7 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
     file.group("/so_far");
     file.value("collisions", w.collisions);
     file.value("max_compression", w.max_compression);
+    file.value("packing_at_start", w.packing_at_start);
     file.value("retries", w.retries);
     file.value("plastic_power", w.plastic_power);
     file.value("unbalanced_share", w.unbalanced_share);

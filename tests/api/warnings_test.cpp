@@ -169,6 +169,29 @@ TEST(Warnings, OfTheEnergyError) {
 // -------------------------------------------------------------------------------- hosts that throw through it
 
 // C++ hosts may let exceptions out of their callbacks: the call fails, and the simulation is as usable as before.
+// A layer on an incline that sinks, as nothing ties the density to the spacing of the particles; with what does it keeps its
+// volume, and nothing is said.
+TEST(Warnings, OfLostVolume) {
+    gp_config config = make_config();
+    const double angle = 26 * std::acos(-1.0) / 180;
+    config.gravity_x = 9.81 * std::sin(angle);
+    config.gravity_y = -9.81 * std::cos(angle);
+    config.periodic_x_max = 24 * spacing;
+    config.jitter = 0.2;
+    const auto build = [](Sim &sim) {
+        sim.add(make_column(24, 10));
+        sim.add(make_plate(24 * spacing, 0, 0, 0));
+    };
+    Sim sound(config);
+    Log log;
+    ASSERT_EQ(gp_set_log(sound, Log::run, &log), GP_OK);
+    build(sound);
+    ASSERT_EQ(gp_run(sound, 4), GP_OK) << gp_last_error();
+    EXPECT_TRUE(log.warnings.empty()) << log.all();
+    config.density_diffusion = 0;
+    expect_once(config, build, 4, {"lost volume", "closer than their density says", "gp_config.density_diffusion = 0"});
+}
+
 TEST(Callbacks, ThatThrowLeaveTheSimulationUsable) {
     Sim sim;
     add_collapse(sim, 4, 4);

@@ -19,11 +19,11 @@ LAYERS = [
     ["sight"],
     ["mps_operators", "operators", "walls"],
     ["mirrors"],
-    ["world", "ledger", "undo"],
+    ["world", "ledger", "undo", "volume_drift"],
     ["stages/*"],
     ["plan", "plan_implicit", "plan_paper", "stage_rows", "warnings"],
     ["sim"],
-    ["fields", "diagnostics", "diagnostics_shape", "io/*"],
+    ["fields", "diagnostics", "diagnostics_mass", "diagnostics_rest", "diagnostics_shape", "diagnostics_surface", "io/*"],
     ["api"],
 ]
 
