@@ -14,7 +14,7 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
     t.particles = scene.particle_count() > 0;
     t.periodic = static_cast<bool>(scene.period());
     t.plates = !scene.plates().empty();
-    t.coulomb_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [&](const PlateSpec &plate) {
+    t.friction_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [&](const PlateSpec &plate) {
         return (plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0) ||
                (plate.friction == GP_WALL_NO_SLIP && constants.scheme == Scheme::adjoint);
     });
@@ -86,7 +86,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads acceleration; writes velocity, position
         {"integrate", t.particles, "particles move", no_particles, stages::integrate, nullptr, ""},
         // reads contact forces; writes velocity, position
-        {"wall_friction", walls && t.coulomb_plates, "a plate has friction", "no plate has friction",
+        {"wall_friction", walls && t.friction_plates, "a plate has friction", "no plate has friction",
          stages::wall_friction, in_reach, none_near},
         // reads pressure; writes velocity, position
         {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",

@@ -18,18 +18,11 @@ namespace {
 struct View {
     Clusters clusters;
     const double *x, *y, *vx, *vy;
-    double bearing2, loose2;
-    const double *pressure;
+    double distance2;
     const Constants *constants;
     const int32_t *column;
     uint8_t *colliding;
     double *du, *dv; // velocity changes
-
-    // The square of the distance at which particles under the pressures of four and of j collide.
-    GP_INLINE Lanes distance2(const Lanes &pressures, int64_t j) const {
-        const Lanes bearing = Lanes{} + bearing2;
-        return pressure[j] > 0 ? bearing : choose(pressures > 0.0, bearing, Lanes{} + loose2);
-    }
 
     GP_INLINE double density(int64_t i) const {
         return constants->materials[constants->body_material[column[i]]].density;
@@ -45,7 +38,6 @@ GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
         const LanePlaces places(first, last);
         const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
-        const Lanes pressures = places.load(v.pressure);
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes partners{};
         for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
@@ -54,7 +46,7 @@ GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end
             const Lanes r2 = dx * dx + dy * dy;
             // Where they are in the same place they do not approach: one's self among them.
             const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
-            const Lanes partner = where(approach > 0.0, where(r2 < v.distance2(pressures, j), one));
+            const Lanes partner = where(approach > 0.0, where(r2 < v.distance2, one));
             partners += partly ? v.clusters.seen(partner, k) : partner;
         }
         for (int64_t i = first; i < last; ++i) {
@@ -83,7 +75,6 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
             own[l] = v.density(places.at[l]);
             partners[l] = v.colliding[places.at[l]];
         }
-        const Lanes pressures = places.load(v.pressure);
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes du{}, dv{};
         for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
@@ -96,8 +87,8 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
             const double other = v.density(j), others = v.colliding[j];
             const Lanes most = choose(partners > others, partners, Lanes{} + others);
             // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
-            Lanes impulse = where(
-                approach > 0.0, where(r2 < v.distance2(pressures, j), approach * other / ((own + other) * most * r2)));
+            Lanes impulse =
+                where(approach > 0.0, where(r2 < v.distance2, approach * other / ((own + other) * most * r2)));
             if (partly)
                 impulse = v.clusters.seen(impulse, k);
             du -= impulse * dx;
@@ -108,25 +99,18 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
     }
 }
 
-// Share of the collision distance at which pairs collide of which neither bears any stress. At the full distance, grains that
-// toppled over the front fell as stiff columns on what they landed on: 1.6 to 2.6 rho g H in single particles (1.3). Where one
-// bears, the full distance holds: grains at the tips of coarse deposits, whose pressure comes and goes, met at the one and the
-// other by turns, and trembled (23 of 96 deposits at L/dl = 8 were not at rest at some time after 1 s, 9 like this).
-constexpr double loose_share = 0.88;
-
 } // namespace
 
 void collide(World &world) {
     Particles &p = world.particles;
     const double distance = world.scene->config().collision_distance * world.constants.spacing;
-    const double loose = world.constants.scheme == Scheme::adjoint ? loose_share * distance : distance;
     const double dt = world.clock.dt;
     update_images(world);
-    world.images.copy(p.pressure);
     // sigma K^-1 has done its work: its first row holds the velocity changes.
-    const View view{Clusters(world),        p.x.data(),    p.y.data(),        p.vx.data(),      p.vy.data(),
-                    distance * distance,    loose * loose, p.pressure.data(), &world.constants, p.column.data(),
-                    world.colliding.data(), p.cxx.data(),  p.cxy.data()};
+    const View view{Clusters(world),  p.x.data(),      p.y.data(),
+                    p.vx.data(),      p.vy.data(),     distance * distance,
+                    &world.constants, p.column.data(), world.colliding.data(),
+                    p.cxx.data(),     p.cxy.data()};
     for_each_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;
