@@ -38,6 +38,7 @@ private:
     };
     void add_mirrored(const Walls &walls, int64_t place, const Vector &at, std::vector<int32_t> &wall_of);
     bool height(double x, double radius, double &y, bool &full) const;
+    bool is_filled(double x, double y, double radius) const; // half or more of the radius
     std::vector<double> stations_near_top() const;
 
     double spacing_;

@@ -193,6 +193,10 @@ bool Surface::height(double x, double radius, double &y, bool &full) const {
            Strip(*this, x, radius, -INFINITY).height(y, full);
 }
 
+bool Surface::is_filled(double x, double y, double radius) const {
+    return Strip(*this, x, radius, y - radius).fraction(y) >= 0.5;
+}
+
 bool Surface::height(double x, double &y) const {
     bool full;
     return height(x, surface_radius * spacing_, y, full);
@@ -227,7 +231,9 @@ void Surface::peak(double &x, double &y) const {
         bool found = false, full;
         double height;
         for (const double at : stations)
-            if (this->height(at, radius, height, full) && (full || !thick) && (!found || height > y)) {
+            // Finding a height takes some hundred sums; that it is above the highest so far, one.
+            if ((!found || !thick || is_filled(at, y, radius)) && this->height(at, radius, height, full) &&
+                (full || !thick) && (!found || height > y)) {
                 x = at;
                 y = height;
                 found = true;
