@@ -86,22 +86,16 @@ GP_MULTIVERSION void add_stresses(const View &view, const GhostRow &row, WallStr
 }
 
 // Velocities are extrapolated linearly through the plate's surface, by the ratio of the ghost's depth to the particles'
-// mean distance: without a limit where all that the ghost sees is at yield, which puts the no-slip surface where it is
-// (simple shear to 0.05 %, Bagnold flow; with the limits below everywhere the wall slips by 1.5 % and 2 %), and no steeper
-// than this elsewhere. Measured on the collapse with a = 1.25, L/dl = 32: unlimited everywhere, the extrapolation drives
-// the flow with 3.1 % of the initial energy and keeps the deposit stirring; with the limits it takes 1.7 %, pressure
-// spikes at the floor stay below 1.1 rho g H, and the deposit comes to rest. The peak of the deposit does not change by
-// more than 1 %. Only the velocity along the plate is set free: normal to it the spikes come back. Particles that touch
-// the plate, as a scene may begin or a collision leave them, are taken to be where contact holds them: else the ratio has
-// no bound (a particle .0003 dl off a plate sent its neighbours off at a thousand times the sound speed).
-constexpr double steepest_tangential = 1.0;
-
-// Of the ghost's velocity normal to the plate over the particles'. 1 would balance the ghosts' full pressure, so that a wall
-// neither gives nor takes p u_n; but it lets a wall be felt a horizon ahead: 1.66 rho c v in a block that falls on a floor, for
-// 1.27, energy from the floor in columns of few grains, 1.35 rho g H in single grains of a collapse's front, for 1.27. What a bowl of
-// 24 plates gives back while the grains in it swing, 1.5e-4 J/m in all, is 5e-5 with 1. R90 of the collapse with a = 1.25, L/dl = 16
-// and 32, is 1.00 and 1.11 with 1, .99 and 1.09 with this.
-constexpr double normal_ratio = 0.25;
+// mean distance: without a limit where all that the ghost sees is at yield, which puts the no-slip surface where it is, and no
+// steeper than this elsewhere: with 1, eight of 24 deposits at L/dl = 8 trembled on for more than a second, with .5 none did.
+// Particles that touch the plate, as a scene may begin or a collision leave them, are taken to be where contact holds them:
+// else the ratio has no bound (a particle .0003 dl off a plate sent its neighbours off at a thousand times the sound speed).
+//
+// Normal to the plate 1 would balance the ghosts' full pressure, so that a wall neither gives nor takes p u_n; but it lets a wall
+// be felt a horizon ahead: 1.66 rho c v in a block that falls on a floor, for 1.27, energy from the floor in columns of few grains,
+// 1.35 rho g H in single grains of a collapse's front, for 1.2. What a bowl of 24 plates gives back while the grains in it swing,
+// 1.5e-4 J/m in all, is 5e-5 with 1.
+constexpr double steepest_tangential = 0.5, normal_ratio = 0.25;
 
 bool at_yield(const World &world, int32_t i) {
     const Particles &p = world.particles;

@@ -16,7 +16,7 @@ namespace {
 // The rate at the plate's surface of a particle that slips in this direction (1 or -1) along the tangent, 1/s. Between surface
 // and particle the mean rate is slip over distance, y; of a curved profile that is the rate at y/2. The gradient that the
 // particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and the rate at
-// the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. Plug of a chute of 40 rows CHUTE_FIGURES.
+// the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola.
 //
 // It is that of the velocities that the step's stresses are made of: with the slip that their forces leave before the friction,
 // row 1 of a shear box slipped by 5 % too little.
@@ -69,7 +69,9 @@ void wall_friction(World &world) {
         if (slip == 0 || normal <= 0)
             continue;
         const double direction = slip > 0 ? 1 : -1;
-        const double mu = world.map_of(i).friction(surface_rate(world, contact, direction), p.pressure[i]);
+        // A particle without stress of its own is under what its plate presses it with.
+        const double pressure = std::max(p.pressure[i], normal * world.constants.spacing);
+        const double mu = world.map_of(i).friction(surface_rate(world, contact, direction), pressure);
         const double ratio = rough ? rough_ratio(world, contact, mu) : wall_friction_bound(plate.spec(), mu);
         const double most = ratio * normal * world.clock.dt / world.material_of(i).density;
         const double stop = std::min(std::abs(slip), most);
