@@ -534,8 +534,8 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
  * GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or be saved
  * elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle.
  *
- * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer
- * format: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
+ * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another
+ * format (0.1 wrote 1, this version 2): GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
  * it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5.
  *
  * C has one name space for types and functions, and gp_load is also the type above: hence a macro over the function

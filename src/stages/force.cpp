@@ -95,8 +95,8 @@ struct WallView {
     double inverse_radius;
 };
 
-// Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and the ghosts' share of sigma : L, that is
-// sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
+// Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and
+// the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
 GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &seen, Contact &contact) {
     const int64_t i = contact.particle;
     const double xi = v.x[i], yi = v.y[i];
