@@ -216,13 +216,18 @@ typedef struct gp_column {
 /* Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column). */
 GP_API gp_status gp_column_init(gp_column *column, size_t size);
 
-/* What the wall does to the tangential velocity. */
+/* What the wall does to the tangential velocity. The traction along a wall is a law of friction: it holds what it can, never
+ * drives, and is never more than the material itself bears there, mu(I) of the rate at the wall's surface times the wall's normal
+ * force on each particle (with GP_STRESS_IMPLICIT the shear at a rough wall is part of the implicit solve). */
 enum {
-    GP_WALL_NO_SLIP = 0,   /* the material sticks to a rough wall as far as its own friction allows */
+    GP_WALL_NO_SLIP = 0,   /* a rough wall: the material's own friction */
     GP_WALL_FREE_SLIP = 1, /* no shear traction. The forces reach over the horizon: beside a pressure that changes along
                               the plate, a share of the order of dl / extent of the scene still acts along it */
-    GP_WALL_COULOMB = 2    /* tangential traction up to wall_mu times the normal one */
+    GP_WALL_COULOMB = 2    /* up to wall_mu times the normal traction, or what the material bears, if that is less */
 };
+
+/* Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn by 50 degrees
+ * at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its own. */
 
 typedef struct gp_plate {
     uint32_t struct_size;
