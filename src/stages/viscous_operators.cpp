@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "kernel.hpp"
+#include "operators.hpp"
 #include "parallel.hpp"
 #include "stages/rows.hpp"
-#include "stages/yield_pressure.hpp"
 
 namespace gp::stages {
 
@@ -18,13 +18,15 @@ struct View {
     const double *qx, *qy, *w;                   // w r and w of pairs
     const double *ghost_qx, *ghost_qy, *ghost_w; // of contacts
     const double *gxx, *gxy, *gyy;               // K^-1
+    const double *ixx, *ixy, *iyy;               // of the particles alone
 
     explicit View(const World &world)
         : rows(world), plates(world.walls.plates.data()), qx(world.viscous.pair.x.data()),
           qy(world.viscous.pair.y.data()), w(world.viscous.pair_weight.data()),
           ghost_qx(world.viscous.contact_pair.x.data()), ghost_qy(world.viscous.contact_pair.y.data()),
           ghost_w(world.viscous.contact_weight.data()), gxx(world.particles.gxx.data()),
-          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()) {}
+          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()), ixx(world.viscous.inner_xx.data()),
+          ixy(world.viscous.inner_xy.data()), iyy(world.viscous.inner_yy.data()) {}
 };
 
 GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, const double *__restrict y,
@@ -80,7 +82,6 @@ void make_ghosts(World &world) {
                 v.seen_pair.x[k] = q * dx;
                 v.seen_pair.y[k] = q * dy;
             }
-            const Plate &plate = w.plates[w.ghost_plate[g]];
             const Vector n(w.ghost_nx[g], w.ghost_ny[g]), ghost(w.ghost_x[g], w.ghost_y[g]);
             const Vector mirror = ghost + 2 * w.ghost_distance[g] * n;
             double sum = 0, distance = 0;
@@ -97,8 +98,7 @@ void make_ghosts(World &world) {
                 v.mirror_share[k] /= sum;
             const double ratio = w.ghost_distance[g] / std::max(distance / sum, least_distance * spacing);
             v.ghost_normal[g] = -ratio;
-            // Without friction of its own a plate passes no shear through its surface.
-            v.ghost_tangential[g] = plate.spec().friction == GP_WALL_NO_SLIP ? -ratio : 1.0;
+            v.ghost_tangential[g] = 1.0; // no shear through the surface: viscous_walls.hpp has it
         }
     });
     for_each_block<ghost_block_size>(world.threads, static_cast<int64_t>(w.contacts.size()),
@@ -145,9 +145,13 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
     });
 }
 
+struct Gradients {
+    double *xx, *xy, *yx, *yy;                         // L
+    double *inner_xx, *inner_xy, *inner_yx, *inner_yy; // that of the particles alone
+};
+
 GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const double *__restrict uy,
-                               const double *gx, const double *gy, double *oxx, double *oxy, double *oyx, double *oyy,
-                               int64_t begin, int64_t end) {
+                               const double *gx, const double *gy, const Gradients &l, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double ui = ux[i], vi = uy[i];
         double mxx = 0, mxy = 0, myx = 0, myy = 0;
@@ -160,6 +164,10 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
             myx += dv * v.qx[k];
             myy += dv * v.qy[k];
         }
+        l.inner_xx[i] = mxx * v.ixx[i] + mxy * v.ixy[i];
+        l.inner_xy[i] = mxx * v.ixy[i] + mxy * v.iyy[i];
+        l.inner_yx[i] = myx * v.ixx[i] + myy * v.ixy[i];
+        l.inner_yy[i] = myx * v.ixy[i] + myy * v.iyy[i];
         for (const Contact &contact : v.rows.contacts_of(i)) {
             double xx = 0, xy = 0, yx = 0, yy = 0;
 #pragma omp simd reduction(+ : xx, xy, yx, yy)
@@ -171,34 +179,44 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
                 yx += dv * v.ghost_qx[k];
                 yy += dv * v.ghost_qy[k];
             }
-            drop_wall_shear(v.plates[contact.listed_plate], xx, xy, yx, yy);
+            drop_shear(v.plates[contact.listed_plate], xx, xy, yx, yy);
             mxx += xx;
             mxy += xy;
             myx += yx;
             myy += yy;
         }
-        oxx[i] = mxx * v.gxx[i] + mxy * v.gxy[i];
-        oxy[i] = mxx * v.gxy[i] + mxy * v.gyy[i];
-        oyx[i] = myx * v.gxx[i] + myy * v.gxy[i];
-        oyy[i] = myx * v.gxy[i] + myy * v.gyy[i];
+        l.xx[i] = mxx * v.gxx[i] + mxy * v.gxy[i];
+        l.xy[i] = mxx * v.gxy[i] + mxy * v.gyy[i];
+        l.yx[i] = myx * v.gxx[i] + myy * v.gxy[i];
+        l.yy[i] = myx * v.gxy[i] + myy * v.gyy[i];
     }
 }
 
-// Force on each ghost: -sum C_i w r + c_i w (u_ghost - u_i) over the particles that see it.
-void find_ghost_forces(World &world, const VectorField &u) {
-    const Walls &w = world.walls;
+// S K^-1 of a particle, without what the penalty on the hidden motion adds to it between particles.
+GP_INLINE void stress_state(const World &world, int64_t i, double &xx, double &xy, double &yx, double &yy) {
     const Particles &p = world.particles;
+    const ViscousSystem &v = world.viscous;
+    const double c = v.stiffness[i];
+    xx = p.cxx[i] + c * v.lxx[i];
+    xy = p.cxy[i] + c * v.lxy[i];
+    yx = p.cyx[i] + c * v.lyx[i];
+    yy = p.cyy[i] + c * v.lyy[i];
+}
+
+// Force on each ghost: -sum S_i K_i^-1 w r over the particles that see it.
+void find_ghost_forces(World &world) {
+    const Walls &w = world.walls;
     ViscousSystem &v = world.viscous;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
             double fx = 0, fy = 0;
             for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
                 const int32_t i = w.particles_of_ghost.index[k];
-                double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
-                drop_wall_shear(w.plates[world.mirrors.plate_of_entry[k]], xx, xy, yx, yy);
-                const double share = v.stiffness[i] * v.seen_weight[k];
-                fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k] + share * (v.ghost_velocity.x[g] - u.x[i]);
-                fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k] + share * (v.ghost_velocity.y[g] - u.y[i]);
+                double xx, xy, yx, yy;
+                stress_state(world, i, xx, xy, yx, yy);
+                drop_shear(w.plates[world.mirrors.plate_of_entry[k]], xx, xy, yx, yy);
+                fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k];
+                fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k];
             }
             v.ghost_force.x[g] = fx;
             v.ghost_force.y[g] = fy;
@@ -206,20 +224,14 @@ void find_ghost_forces(World &world, const VectorField &u) {
     });
 }
 
-GP_INLINE Vector force_of_contact(const View &v, const World &world, const VectorField &u, const Contact &contact) {
-    const Particles &p = world.particles;
+GP_INLINE Vector force_of_contact(const View &v, const World &world, const Contact &contact) {
     const ViscousSystem &s = world.viscous;
-    const int64_t i = contact.particle;
-    const Plate &plate = v.plates[contact.listed_plate];
-    double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
-    drop_wall_shear(plate, xx, xy, yx, yy);
+    double xx, xy, yx, yy;
+    stress_state(world, contact.particle, xx, xy, yx, yy);
+    drop_shear(v.plates[contact.listed_plate], xx, xy, yx, yy);
     Vector force = Vector::Zero();
-    for (int64_t k = contact.begin; k < contact.end; ++k) {
-        const int32_t g = v.rows.ghost_index[k];
-        const double share = s.stiffness[i] * v.ghost_w[k];
-        force += Vector(xx * v.ghost_qx[k] + xy * v.ghost_qy[k] + share * (s.ghost_velocity.x[g] - u.x[i]),
-                        yx * v.ghost_qx[k] + yy * v.ghost_qy[k] + share * (s.ghost_velocity.y[g] - u.y[i]));
-    }
+    for (int64_t k = contact.begin; k < contact.end; ++k)
+        force += Vector(xx * v.ghost_qx[k] + xy * v.ghost_qy[k], yx * v.ghost_qx[k] + yy * v.ghost_qy[k]);
     const Mirrors &mirrors = world.mirrors;
     const int64_t c = &contact - world.walls.contacts.data();
     for (int64_t k = mirrors.contact_start[c]; k < mirrors.contact_start[c + 1]; ++k) {
@@ -234,8 +246,8 @@ struct Sources {
     const double *cxx, *cxy, *cyx, *cyy, *stiffness, *ux, *uy;
 };
 
-GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorField &u, const Sources &sources,
-                                double *fx, double *fy, int64_t begin, int64_t end) {
+GP_MULTIVERSION void force_rows(const View &v, const World &world, const Sources &sources, double *fx, double *fy,
+                                int64_t begin, int64_t end) {
     const double *__restrict cxx = sources.cxx, *__restrict cxy = sources.cxy, *__restrict cyx = sources.cyx,
                              *__restrict cyy = sources.cyy;
     const double *__restrict stiffness = sources.stiffness, *__restrict ux = sources.ux, *__restrict uy = sources.uy;
@@ -253,7 +265,7 @@ GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorF
         }
         double sx = cxx[i] * qx + cxy[i] * qy + tx, sy = cyx[i] * qx + cyy[i] * qy + ty;
         for (const Contact &contact : v.rows.contacts_of(i)) {
-            const Vector force = force_of_contact(v, world, u, contact);
+            const Vector force = force_of_contact(v, world, contact);
             sx += force.x();
             sy += force.y();
         }
@@ -262,31 +274,53 @@ GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorF
     }
 }
 
-// Where L is not the best fit to the velocities around (few neighbours, a plate that takes no shear), what it does not
-// see has no energy of its own to be the derivative of.
-void mark_regular(World &world) {
+// Of the shear along the plates beside particle i, the share that its gradient sees, which is fitted to ghosts that pass none:
+// 1/2 in the row beside a plate, .9 in the next. m: of the particles alone.
+double seen_shear(const World &world, int64_t i, const Moments &m) {
+    const ViscousSystem &v = world.viscous;
+    double least = 1;
+    for (const Contact &contact : Rows(world).contacts_of(i)) {
+        const Vector &n = world.walls.plates[contact.listed_plate].segment().normal;
+        double ghosts = 0;
+        for (int64_t k = contact.begin; k < contact.end; ++k)
+            if (v.contact_weight[k] > 0) {
+                const double across = n.x() * v.contact_pair.x[k] + n.y() * v.contact_pair.y[k];
+                ghosts += across * across / v.contact_weight[k];
+            }
+        const double own = n.x() * n.x() * m.kxx + 2 * n.x() * n.y() * m.kxy + n.y() * n.y() * m.kyy;
+        const double known = std::max(own, deficient_share * world.constants.lattice.second_moment);
+        least = std::min(least, known / (known + ghosts));
+    }
+    return least;
+}
+
+// K^-1 of the particles alone, and the share of the shear that the gradient sees. Where the former is not the
+// inverse (few neighbours), what the fit does not see has no energy of its own to be the derivative of.
+void make_inner_shapes(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     const Rows rows(world);
+    const double k0 = world.constants.lattice.second_moment;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
-            double kxx = 0, kxy = 0, kyy = 0;
-            const auto add = [&](double w, double qx, double qy) {
+            Moments m;
+            const auto add = [&m](double w, double qx, double qy) {
                 if (w > 0) {
-                    kxx += qx * qx / w;
-                    kxy += qx * qy / w;
-                    kyy += qy * qy / w;
+                    m.kxx += qx * qx / w;
+                    m.kxy += qx * qy / w;
+                    m.kyy += qy * qy / w;
                 }
             };
             for (int64_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
                 add(v.pair_weight[k], v.pair.x[k], v.pair.y[k]);
-            for (const Contact &contact : rows.contacts_of(i))
-                for (int64_t k = contact.begin; k < contact.end; ++k)
-                    add(v.contact_weight[k], v.contact_pair.x[k], v.contact_pair.y[k]);
-            const double off = std::abs(kxx * p.gxx[i] + kxy * p.gxy[i] - 1) +
-                               std::abs(kxy * p.gxy[i] + kyy * p.gyy[i] - 1) +
-                               std::abs(kxx * p.gxy[i] + kxy * p.gyy[i]);
-            v.regular[i] = off < 1e-6 && !touches_slip(world, i) ? 1.0 : 0.0;
+            const SymmetricTensor g = inverse_shape(m, k0);
+            v.inner_xx[i] = g.xx;
+            v.inner_xy[i] = g.xy;
+            v.inner_yy[i] = g.yy;
+            const double off = std::abs(m.kxx * g.xx + m.kxy * g.xy - 1) + std::abs(m.kxy * g.xy + m.kyy * g.yy - 1) +
+                               std::abs(m.kxx * g.xy + m.kxy * g.yy);
+            v.regular[i] = off < 1e-6 ? 1.0 : 0.0;
+            v.seen_shear[i] = seen_shear(world, i, m);
         }
     });
 }
@@ -320,10 +354,10 @@ void make_room(World &world) {
         field->resize(n);
     for (VectorField *field : {&v.velocity, &v.change, &v.direction})
         field->resize(with_images);
-    for (Field<double> *field :
-         {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.lxx, &v.lxy, &v.lyx, &v.lyy, &v.regular})
+    for (Field<double> *field : {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.regular, &v.seen_shear,
+                                 &v.inner_xx, &v.inner_xy, &v.inner_yy, &v.full_xx, &v.full_xy, &v.full_yx, &v.full_yy})
         field->resize(n);
-    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness})
+    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
         field->resize(with_images);
     v.partial.resize(block_count(n));
 }
@@ -342,8 +376,8 @@ void make_viscous_system(World &world) {
                   v.pair_weight.data(), begin, end);
     });
     make_ghosts(world);
-    find_yield_pressure(world);
-    mark_regular(world);
+    v.pressure.assign(p.pressure.begin(), p.pressure.begin() + p.count);
+    make_inner_shapes(world);
 }
 
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) {
@@ -352,19 +386,21 @@ void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) 
     if (world.walls.in_reach())
         find_ghost_velocities(world, u, plates);
     const View view(world);
+    const Gradients gradients{v.full_xx.data(), v.full_xy.data(), v.full_yx.data(), v.full_yy.data(),
+                              v.lxx.data(),     v.lxy.data(),     v.lyx.data(),     v.lyy.data()};
     for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
-        rate_rows(view, u.x.data(), u.y.data(), v.ghost_velocity.x.data(), v.ghost_velocity.y.data(), v.lxx.data(),
-                  v.lxy.data(), v.lyx.data(), v.lyy.data(), begin, end);
+        rate_rows(view, u.x.data(), u.y.data(), v.ghost_velocity.x.data(), v.ghost_velocity.y.data(), gradients, begin,
+                  end);
         for (int64_t i = begin; i < end; ++i) {
-            e.x[i] = 0.5 * (v.lxx[i] - v.lyy[i]);
-            e.y[i] = 0.5 * (v.lxy[i] + v.lyx[i]);
+            e.x[i] = 0.5 * (gradients.xx[i] - gradients.yy[i]);
+            e.y[i] = 0.5 * (gradients.xy[i] + gradients.yx[i]);
         }
     });
 }
 
 void viscous_forces(World &world, const VectorField &s, const VectorField &u, VectorField &f) {
     Particles &p = world.particles;
-    const ViscousSystem &v = world.viscous;
+    ViscousSystem &v = world.viscous;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const double c = v.stiffness[i];
@@ -375,18 +411,19 @@ void viscous_forces(World &world, const VectorField &s, const VectorField &u, Ve
         }
     });
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
+    world.images.copy({&v.lxx, &v.lxy, &v.lyx, &v.lyy});
     if (world.walls.in_reach())
-        find_ghost_forces(world, u);
+        find_ghost_forces(world);
     const View view(world);
     const Sources sources{p.cxx.data(),       p.cxy.data(), p.cyx.data(), p.cyy.data(),
                           v.stiffness.data(), u.x.data(),   u.y.data()};
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
-        force_rows(view, world, u, sources, f.x.data(), f.y.data(), begin, end);
+        force_rows(view, world, sources, f.x.data(), f.y.data(), begin, end);
     });
 }
 
-Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact) {
-    return force_of_contact(View(world), world, u, contact);
+Vector viscous_contact_force(const World &world, const Contact &contact) {
+    return force_of_contact(View(world), world, contact);
 }
 
 // With eta in place of H the block of particle i is eta/2 |K^-1 q|^2 for each row of rates that q stands in.

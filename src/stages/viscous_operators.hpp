@@ -8,14 +8,13 @@
 // linearised equations are symmetric and positive definite, and what the material loses is what the plates get.
 #pragma once
 
+#include "stages/viscous_walls.hpp"
 #include "world.hpp"
 
 namespace gp::stages {
 
 // The operators where particles and plates are now.
 void make_viscous_system(World &world);
-
-enum class Plates { move, stand }; // stand: for changes of u
 
 // e of u. Makes u's images and the ghosts' velocities.
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e);
@@ -25,7 +24,7 @@ void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e);
 void viscous_forces(World &world, const VectorField &s, const VectorField &u, VectorField &f);
 
 // What a contact brings of the last viscous_forces, N/m3.
-Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact);
+Vector viscous_contact_force(const World &world, const Contact &contact);
 
 // Diagonal of the linearised equations without the inertia, for isotropic viscosities eta (Pa s): N s/m4.
 void viscous_diagonal(World &world, const Field<double> &eta, Field<double> &diagonal);
