@@ -294,8 +294,9 @@ double seen_shear(const World &world, int64_t i, const Moments &m) {
     return least;
 }
 
-// K^-1 of the particles alone, and the share of the shear that the gradient sees. Where the former is not the
-// inverse (few neighbours), what the fit does not see has no energy of its own to be the derivative of.
+// What the hidden motion u_j - u_i - L r, L = M P, goes by: its energy, c/2 sum w |u_j - u_i - L r|^2, is the derivative's with
+// 2 P - P K P, which is P = K^-1 where that is the inverse; so it is one among few neighbours, too. (Left out there, grains at
+// tips went astray at 5e-4 m/s whatever delta.) And the share of the shear that the gradient sees.
 void make_inner_shapes(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
@@ -314,12 +315,13 @@ void make_inner_shapes(World &world) {
             for (int64_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
                 add(v.pair_weight[k], v.pair.x[k], v.pair.y[k]);
             const SymmetricTensor g = inverse_shape(m, k0);
-            v.inner_xx[i] = g.xx;
-            v.inner_xy[i] = g.xy;
-            v.inner_yy[i] = g.yy;
-            const double off = std::abs(m.kxx * g.xx + m.kxy * g.xy - 1) + std::abs(m.kxy * g.xy + m.kyy * g.yy - 1) +
-                               std::abs(m.kxx * g.xy + m.kxy * g.yy);
-            v.regular[i] = off < 1e-6 ? 1.0 : 0.0;
+            Tensor shape, inverse;
+            shape << m.kxx, m.kxy, m.kxy, m.kyy;
+            inverse << g.xx, g.xy, g.xy, g.yy;
+            const Tensor fit = 2 * inverse - inverse * shape * inverse;
+            v.inner_xx[i] = fit(0, 0);
+            v.inner_xy[i] = fit(0, 1);
+            v.inner_yy[i] = fit(1, 1);
             v.seen_shear[i] = seen_shear(world, i, m);
         }
     });
@@ -354,8 +356,8 @@ void make_room(World &world) {
         field->resize(n);
     for (VectorField *field : {&v.velocity, &v.change, &v.direction})
         field->resize(with_images);
-    for (Field<double> *field : {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.regular, &v.seen_shear,
-                                 &v.inner_xx, &v.inner_xy, &v.inner_yy, &v.full_xx, &v.full_xy, &v.full_yx, &v.full_yy})
+    for (Field<double> *field : {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.seen_shear, &v.inner_xx,
+                                 &v.inner_xy, &v.inner_yy, &v.full_xx, &v.full_xy, &v.full_yx, &v.full_yy})
         field->resize(n);
     for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
         field->resize(with_images);

@@ -136,7 +136,7 @@ void find_stiffness(World &world) {
     const double scale = hidden_share / world.constants.lattice.second_moment;
     for_each_particle(world, [&](int64_t i) {
         const double rate = equivalent_stress({v.rate.x[i], v.rate.y[i]});
-        v.stiffness[i] = v.regular[i] * scale * law_of(world, i).viscosity(rate, p.pressure[i]);
+        v.stiffness[i] = scale * law_of(world, i).viscosity(rate, p.pressure[i]);
     });
     world.images.copy(v.stiffness);
 }
