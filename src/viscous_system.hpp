@@ -37,6 +37,7 @@ struct ViscousSystem {
     VectorField pair, contact_pair, seen_pair;
     Field<double> pair_weight, contact_weight, seen_weight;
     Field<double> inner_xx, inner_xy, inner_yy; // K^-1 of the particles alone, or what is in its place among few
+    Field<double> beside;                       // 1 where one plate is in reach, else 0
     Field<double> seen_shear;                   // of the shear along plates, the share that the gradient sees
     // The share in a ghost's velocity of each particle about its mirror point.
     Field<double> mirror_share;
@@ -73,22 +74,39 @@ struct ViscousSystem {
              {&pair, &contact_pair, &seen_pair, &ghost_velocity, &ghost_force, &target, &velocity, &rate, &stress,
               &force, &change, &rate_change, &residual, &direction, &image, &bend})
             total += field->bytes();
-        for (const Field<double> *field : {&pair_weight,  &contact_weight,
-                                           &seen_weight,  &seen_shear,
-                                           &inner_xx,     &inner_xy,
-                                           &inner_yy,     &full_xx,
-                                           &full_xy,      &full_yx,
-                                           &full_yy,      &lxx,
-                                           &lxy,          &lyx,
-                                           &lyy,          &stiffness,
-                                           &mirror_share, &pressure,
-                                           &ghost_normal, &ghost_tangential,
-                                           &diagonal,     &hxx,
-                                           &hxy,          &hyy,
-                                           &viscosity,    &kxx,
-                                           &kxy,          &kyy,
-                                           &partial,      &wall_rate,
-                                           &wall_stress,  &wall_change,
+        for (const Field<double> *field : {&pair_weight,
+                                           &contact_weight,
+                                           &seen_weight,
+                                           &seen_shear,
+                                           &beside,
+                                           &inner_xx,
+                                           &inner_xy,
+                                           &inner_yy,
+                                           &full_xx,
+                                           &full_xy,
+                                           &full_yx,
+                                           &full_yy,
+                                           &lxx,
+                                           &lxy,
+                                           &lyx,
+                                           &lyy,
+                                           &stiffness,
+                                           &mirror_share,
+                                           &pressure,
+                                           &ghost_normal,
+                                           &ghost_tangential,
+                                           &diagonal,
+                                           &hxx,
+                                           &hxy,
+                                           &hyy,
+                                           &viscosity,
+                                           &kxx,
+                                           &kxy,
+                                           &kyy,
+                                           &partial,
+                                           &wall_rate,
+                                           &wall_stress,
+                                           &wall_change,
                                            &wall_h})
             total += static_cast<int64_t>(field->capacity() * sizeof(double));
         return total + static_cast<int64_t>(wall_laws.capacity() * sizeof(WallLaw));

@@ -18,15 +18,16 @@ struct View {
     const double *qx, *qy, *w;                   // w r and w of pairs
     const double *ghost_qx, *ghost_qy, *ghost_w; // of contacts
     const double *gxx, *gxy, *gyy;               // K^-1
-    const double *ixx, *ixy, *iyy;               // of the particles alone
+    const double *beside;
+    const double *ixx, *ixy, *iyy; // of the particles alone
 
     explicit View(const World &world)
         : rows(world), plates(world.walls.plates.data()), qx(world.viscous.pair.x.data()),
           qy(world.viscous.pair.y.data()), w(world.viscous.pair_weight.data()),
           ghost_qx(world.viscous.contact_pair.x.data()), ghost_qy(world.viscous.contact_pair.y.data()),
           ghost_w(world.viscous.contact_weight.data()), gxx(world.particles.gxx.data()),
-          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()), ixx(world.viscous.inner_xx.data()),
-          ixy(world.viscous.inner_xy.data()), iyy(world.viscous.inner_yy.data()) {}
+          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()), beside(world.viscous.beside.data()),
+          ixx(world.viscous.inner_xx.data()), ixy(world.viscous.inner_xy.data()), iyy(world.viscous.inner_yy.data()) {}
 };
 
 GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, const double *__restrict y,
@@ -189,49 +190,76 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
         l.xy[i] = mxx * v.gxy[i] + mxy * v.gyy[i];
         l.yx[i] = myx * v.gxx[i] + myy * v.gxy[i];
         l.yy[i] = myx * v.gxy[i] + myy * v.gyy[i];
+        if (v.beside[i] > 0) {
+            const Vector &n = v.plates[v.rows.contacts_of(i).first->listed_plate].segment().normal;
+            const double x = n.x() * (l.xx[i] - l.inner_xx[i]) + n.y() * (l.yx[i] - l.inner_yx[i]);
+            const double y = n.x() * (l.xy[i] - l.inner_xy[i]) + n.y() * (l.yy[i] - l.inner_yy[i]);
+            l.inner_xx[i] += n.x() * x;
+            l.inner_xy[i] += n.x() * y;
+            l.inner_yx[i] += n.y() * x;
+            l.inner_yy[i] += n.y() * y;
+        }
     }
 }
 
-// S K^-1 of a particle, without what the penalty on the hidden motion adds to it between particles.
-GP_INLINE void stress_state(const World &world, int64_t i, double &xx, double &xy, double &yx, double &yy) {
-    const Particles &p = world.particles;
-    const ViscousSystem &v = world.viscous;
-    const double c = v.stiffness[i];
-    xx = p.cxx[i] + c * v.lxx[i];
-    xy = p.cxy[i] + c * v.lxy[i];
-    yx = p.cyx[i] + c * v.lyx[i];
-    yy = p.cyy[i] + c * v.lyy[i];
-}
+// What particle i's stress and hidden motion exert through the plate on its ghosts, of ways w r and per w: C w r + c w (u_g - u_i),
+// along the normal what the hidden motion adds.
+struct ThroughPlate {
+    double xx, xy, yx, yy;
+    Vector normal;
+    double stiffness, away; // c, n . u_i
 
-// Force on each ghost: -sum S_i K_i^-1 w r over the particles that see it.
-void find_ghost_forces(World &world) {
+    GP_INLINE ThroughPlate(const World &world, const VectorField &u, int64_t i, const Plate &plate)
+        : normal(plate.segment().normal) {
+        const Particles &p = world.particles;
+        const ViscousSystem &v = world.viscous;
+        const double c = v.stiffness[i];
+        xx = p.cxx[i] + c * v.lxx[i];
+        xy = p.cxy[i] + c * v.lxy[i];
+        yx = p.cyx[i] + c * v.lyx[i];
+        yy = p.cyy[i] + c * v.lyy[i];
+        drop_shear(plate, xx, xy, yx, yy);
+        stiffness = c * v.beside[i];
+        const Vector &n = normal;
+        const double x = stiffness * (n.x() * v.lxx[i] + n.y() * v.lyx[i]);
+        const double y = stiffness * (n.x() * v.lxy[i] + n.y() * v.lyy[i]);
+        xx -= n.x() * x;
+        xy -= n.x() * y;
+        yx -= n.y() * x;
+        yy -= n.y() * y;
+        away = n.x() * u.x[i] + n.y() * u.y[i];
+    }
+    GP_INLINE Vector force(const ViscousSystem &v, int64_t g, double qx, double qy, double w) const {
+        const double apart =
+            stiffness * w * (normal.x() * v.ghost_velocity.x[g] + normal.y() * v.ghost_velocity.y[g] - away);
+        return {xx * qx + xy * qy + apart * normal.x(), yx * qx + yy * qy + apart * normal.y()};
+    }
+};
+
+// Force on each ghost: the opposite of what it exerts on the particles that see it.
+void find_ghost_forces(World &world, const VectorField &u) {
     const Walls &w = world.walls;
     ViscousSystem &v = world.viscous;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
-            double fx = 0, fy = 0;
+            Vector force = Vector::Zero();
             for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
-                const int32_t i = w.particles_of_ghost.index[k];
-                double xx, xy, yx, yy;
-                stress_state(world, i, xx, xy, yx, yy);
-                drop_shear(w.plates[world.mirrors.plate_of_entry[k]], xx, xy, yx, yy);
-                fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k];
-                fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k];
+                const Plate &plate = w.plates[world.mirrors.plate_of_entry[k]];
+                const ThroughPlate through(world, u, w.particles_of_ghost.index[k], plate);
+                force -= through.force(v, g, v.seen_pair.x[k], v.seen_pair.y[k], v.seen_weight[k]);
             }
-            v.ghost_force.x[g] = fx;
-            v.ghost_force.y[g] = fy;
+            v.ghost_force.x[g] = force.x();
+            v.ghost_force.y[g] = force.y();
         }
     });
 }
 
-GP_INLINE Vector force_of_contact(const View &v, const World &world, const Contact &contact) {
+GP_INLINE Vector force_of_contact(const View &v, const World &world, const VectorField &u, const Contact &contact) {
     const ViscousSystem &s = world.viscous;
-    double xx, xy, yx, yy;
-    stress_state(world, contact.particle, xx, xy, yx, yy);
-    drop_shear(v.plates[contact.listed_plate], xx, xy, yx, yy);
+    const ThroughPlate through(world, u, contact.particle, v.plates[contact.listed_plate]);
     Vector force = Vector::Zero();
     for (int64_t k = contact.begin; k < contact.end; ++k)
-        force += Vector(xx * v.ghost_qx[k] + xy * v.ghost_qy[k], yx * v.ghost_qx[k] + yy * v.ghost_qy[k]);
+        force += through.force(s, v.rows.ghost_index[k], v.ghost_qx[k], v.ghost_qy[k], v.ghost_w[k]);
     const Mirrors &mirrors = world.mirrors;
     const int64_t c = &contact - world.walls.contacts.data();
     for (int64_t k = mirrors.contact_start[c]; k < mirrors.contact_start[c + 1]; ++k) {
@@ -246,8 +274,8 @@ struct Sources {
     const double *cxx, *cxy, *cyx, *cyy, *stiffness, *ux, *uy;
 };
 
-GP_MULTIVERSION void force_rows(const View &v, const World &world, const Sources &sources, double *fx, double *fy,
-                                int64_t begin, int64_t end) {
+GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorField &u, const Sources &sources,
+                                double *fx, double *fy, int64_t begin, int64_t end) {
     const double *__restrict cxx = sources.cxx, *__restrict cxy = sources.cxy, *__restrict cyx = sources.cyx,
                              *__restrict cyy = sources.cyy;
     const double *__restrict stiffness = sources.stiffness, *__restrict ux = sources.ux, *__restrict uy = sources.uy;
@@ -265,7 +293,7 @@ GP_MULTIVERSION void force_rows(const View &v, const World &world, const Sources
         }
         double sx = cxx[i] * qx + cxy[i] * qy + tx, sy = cyx[i] * qx + cyy[i] * qy + ty;
         for (const Contact &contact : v.rows.contacts_of(i)) {
-            const Vector force = force_of_contact(v, world, contact);
+            const Vector force = force_of_contact(v, world, u, contact);
             sx += force.x();
             sy += force.y();
         }
@@ -292,6 +320,26 @@ double seen_shear(const World &world, int64_t i, const Moments &m) {
         least = std::min(least, known / (known + ghosts));
     }
     return least;
+}
+
+// Beside one plate the hidden motion along its normal is that of the fit to the ghosts as well, if K^-1 is the inverse.
+bool sees_one_plate(const World &world, int64_t i, Moments m) {
+    const ViscousSystem &v = world.viscous;
+    const Particles &p = world.particles;
+    const Rows::Run run = Rows(world).contacts_of(i);
+    if (run.last - run.first != 1)
+        return false;
+    for (int64_t k = run.first->begin; k < run.first->end; ++k)
+        if (v.contact_weight[k] > 0) {
+            const double qx = v.contact_pair.x[k], qy = v.contact_pair.y[k], inverse = 1 / v.contact_weight[k];
+            m.kxx += inverse * qx * qx;
+            m.kxy += inverse * qx * qy;
+            m.kyy += inverse * qy * qy;
+        }
+    const double off = std::abs(m.kxx * p.gxx[i] + m.kxy * p.gxy[i] - 1) +
+                       std::abs(m.kxy * p.gxy[i] + m.kyy * p.gyy[i] - 1) +
+                       std::abs(m.kxx * p.gxy[i] + m.kxy * p.gyy[i]);
+    return off < 1e-6;
 }
 
 // What the hidden motion u_j - u_i - L r, L = M P, goes by: its energy, c/2 sum w |u_j - u_i - L r|^2, is the derivative's with
@@ -323,6 +371,7 @@ void make_inner_shapes(World &world) {
             v.inner_xy[i] = fit(0, 1);
             v.inner_yy[i] = fit(1, 1);
             v.seen_shear[i] = seen_shear(world, i, m);
+            v.beside[i] = sees_one_plate(world, i, m) ? 1.0 : 0.0;
         }
     });
 }
@@ -359,7 +408,7 @@ void make_room(World &world) {
     for (Field<double> *field : {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.seen_shear, &v.inner_xx,
                                  &v.inner_xy, &v.inner_yy, &v.full_xx, &v.full_xy, &v.full_yx, &v.full_yy})
         field->resize(n);
-    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
+    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness, &v.beside, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
         field->resize(with_images);
     v.partial.resize(block_count(n));
 }
@@ -380,6 +429,7 @@ void make_viscous_system(World &world) {
     make_ghosts(world);
     v.pressure.assign(p.pressure.begin(), p.pressure.begin() + p.count);
     make_inner_shapes(world);
+    world.images.copy(v.beside);
 }
 
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) {
@@ -415,17 +465,17 @@ void viscous_forces(World &world, const VectorField &s, const VectorField &u, Ve
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     world.images.copy({&v.lxx, &v.lxy, &v.lyx, &v.lyy});
     if (world.walls.in_reach())
-        find_ghost_forces(world);
+        find_ghost_forces(world, u);
     const View view(world);
     const Sources sources{p.cxx.data(),       p.cxy.data(), p.cyx.data(), p.cyy.data(),
                           v.stiffness.data(), u.x.data(),   u.y.data()};
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
-        force_rows(view, world, sources, f.x.data(), f.y.data(), begin, end);
+        force_rows(view, world, u, sources, f.x.data(), f.y.data(), begin, end);
     });
 }
 
-Vector viscous_contact_force(const World &world, const Contact &contact) {
-    return force_of_contact(View(world), world, contact);
+Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact) {
+    return force_of_contact(View(world), world, u, contact);
 }
 
 // With eta in place of H the block of particle i is eta/2 |K^-1 q|^2 for each row of rates that q stands in.

@@ -24,7 +24,7 @@ void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e);
 void viscous_forces(World &world, const VectorField &s, const VectorField &u, VectorField &f);
 
 // What a contact brings of the last viscous_forces, N/m3.
-Vector viscous_contact_force(const World &world, const Contact &contact);
+Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact);
 
 // Diagonal of the linearised equations without the inertia, for isotropic viscosities eta (Pa s): N s/m4.
 void viscous_diagonal(World &world, const Field<double> &eta, Field<double> &diagonal);

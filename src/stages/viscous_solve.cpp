@@ -373,7 +373,7 @@ void viscous_solve(World &world) {
     double plate_power = 0, friction = 0;
     for (Contact &contact : world.walls.contacts) {
         const Vector traction = wall_traction(world, contact);
-        const Vector force = viscous_contact_force(world, contact) + traction;
+        const Vector force = viscous_contact_force(world, v.velocity, contact) + traction;
         const auto c = &contact - world.walls.contacts.data();
         friction += p.volume * v.wall_laws[c].share * v.wall_laws[c].lever * v.wall_stress[c] * v.wall_rate[c];
         const double power = force.dot(world.walls.plates[contact.plate].velocity());

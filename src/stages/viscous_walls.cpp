@@ -77,7 +77,7 @@ void find_wall_laws(World &world) {
     for_each_contact(world, [&](int64_t c) {
         const Contact &contact = w.contacts[c];
         const Vector &n = w.plates[contact.plate].segment().normal;
-        const Vector viscous = viscous_contact_force(world, contact);
+        const Vector viscous = viscous_contact_force(world, v.velocity, contact);
         v.wall_laws[c] = law_of(world, contact, n.dot(Vector(contact.force_x, contact.force_y) + viscous));
     });
     wall_rates(world, v.velocity, Plates::move, v.wall_rate);
