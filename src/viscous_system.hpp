@@ -38,8 +38,10 @@ struct ViscousSystem {
     Field<double> pair_weight, contact_weight, seen_weight;
     Field<double> inner_xx, inner_xy, inner_yy; // K^-1 of the particles alone, or what is in its place among few
     Field<double> beside;                       // 1 where one plate is in reach, else 0
-    Field<double> seen_shear;                   // of the shear along plates, the share that the gradient sees
-    // The share in a ghost's velocity of each particle about its mirror point.
+    // Of the shear along plates, the share that the gradient sees, and that shear's part of e: shear_axis . e.
+    Field<double> seen_shear;
+    VectorField shear_axis;
+    VectorField unseen; // what is added to e to make it whole, 1/s
     Field<double> mirror_share;
     // u_ghost - u_plate = (tangential t (x) t + normal n (x) n) (u_mean - u_plate)
     Field<double> ghost_normal, ghost_tangential;
@@ -71,8 +73,8 @@ struct ViscousSystem {
     int64_t bytes() const {
         int64_t total = 0;
         for (const VectorField *field :
-             {&pair, &contact_pair, &seen_pair, &ghost_velocity, &ghost_force, &target, &velocity, &rate, &stress,
-              &force, &change, &rate_change, &residual, &direction, &image, &bend})
+             {&shear_axis, &unseen, &pair, &contact_pair, &seen_pair, &ghost_velocity, &ghost_force, &target, &velocity,
+              &rate, &stress, &force, &change, &rate_change, &residual, &direction, &image, &bend})
             total += field->bytes();
         for (const Field<double> *field : {&pair_weight,
                                            &contact_weight,
