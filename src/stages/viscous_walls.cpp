@@ -57,7 +57,8 @@ WallLaw law_of(const World &world, const Contact &contact, double normal) {
     } else {
         Tensor rate;
         rate << v.rate.x[i], v.rate.y[i], v.rate.y[i], -v.rate.x[i];
-        const double stretching = s.normal.dot(rate * s.normal);
+        // Mean between the particle and the plate, which does not stretch.
+        const double stretching = 0.5 * s.normal.dot(rate * s.normal);
         wall.law.delta = std::hypot(wall.law.delta, stretching);
         borne = std::max(1 - mu * stretching / std::hypot(g, wall.law.delta), least_borne);
     }
