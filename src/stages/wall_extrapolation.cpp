@@ -93,13 +93,10 @@ GP_MULTIVERSION void add_stresses(const View &view, const GhostRow &row, WallStr
 // spikes at the floor stay below 1.1 rho g H, and the deposit comes to rest. The peak of the deposit does not change by
 // more than 1 %. Only the velocity along the plate is set free: normal to it the spikes come back. Particles that touch
 // the plate, as a scene may begin or a collision leave them, are taken to be where contact holds them: else the ratio has
-// no bound (a particle .0003 dl off a plate sent its neighbours off at a thousand times the sound speed).
+// no bound (a particle .0003 dl off a plate sent its neighbours off at a thousand times the sound speed). Along the normal all
+// of the particles' velocity is turned round, which balances the ghosts' full pressure: with less a wall gives and takes some
+// p u_n (stages/gradient.cpp has what is left over among few particles).
 constexpr double steepest_tangential = 1.0;
-
-// Of the ghost's velocity normal to the plate over the particles'. In the default scheme 1 balances the ghosts' full pressure
-// (with less a wall gives and takes some p u_n; stages/gradient.cpp has what is left over among few particles). In the
-// implicit scheme's collapse with a = 1.25, L/dl = 16, R90 is 1.123, 1.163, 1.192, 1.314 with 0, .25, .5, 1.
-template <bool Sheared> constexpr double normal_ratio = Sheared ? 1.0 : 0.25;
 
 bool at_yield(const World &world, int32_t i) {
     const Particles &p = world.particles;
@@ -143,7 +140,7 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
             const double mean_distance = n.dot(Vector(sums.x, sums.y)) / sums.w - w.ghost_distance[k];
             const double distance = std::max(mean_distance, contact_distance * world.constants.spacing);
             const double ratio = w.ghost_distance[k] / distance;
-            const double normal = -normal_ratio<Sheared> * n.dot(relative);
+            const double normal = -n.dot(relative);
             // Without friction of its own a plate passes no shear through its surface.
             const double carried = Sheared ? -(flows ? ratio : std::min(ratio, steepest_tangential)) : 0.0;
             const double tangential = (rough ? carried : 1.0) * t.dot(relative);
