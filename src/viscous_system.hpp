@@ -38,10 +38,7 @@ struct ViscousSystem {
     Field<double> pair_weight, contact_weight, seen_weight;
     Field<double> inner_xx, inner_xy, inner_yy; // K^-1 of the particles alone, or what is in its place among few
     Field<double> beside;                       // 1 where one plate is in reach, else 0
-    // Of the shear along plates, the share that the gradient sees, and that shear's part of e: shear_axis . e.
-    Field<double> seen_shear;
-    VectorField shear_axis;
-    VectorField unseen; // what is added to e to make it whole, 1/s
+    Field<double> seen_shear;                   // of the shear along plates, the share that the gradient sees
     Field<double> mirror_share;
     // u_ghost - u_plate = (tangential t (x) t + normal n (x) n) (u_mean - u_plate)
     Field<double> ghost_normal, ghost_tangential;
@@ -73,8 +70,8 @@ struct ViscousSystem {
     int64_t bytes() const {
         int64_t total = 0;
         for (const VectorField *field :
-             {&shear_axis, &unseen, &pair, &contact_pair, &seen_pair, &ghost_velocity, &ghost_force, &target, &velocity,
-              &rate, &stress, &force, &change, &rate_change, &residual, &direction, &image, &bend})
+             {&pair, &contact_pair, &seen_pair, &ghost_velocity, &ghost_force, &target, &velocity, &rate, &stress,
+              &force, &change, &rate_change, &residual, &direction, &image, &bend})
             total += field->bytes();
         for (const Field<double> *field : {&pair_weight,
                                            &contact_weight,

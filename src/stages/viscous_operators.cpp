@@ -304,10 +304,9 @@ GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorF
 
 // Of the shear along the plates beside particle i, the share that its gradient sees, which is fitted to ghosts that pass none:
 // 1/2 in the row beside a plate, .9 in the next. m: of the particles alone.
-double find_seen_shear(World &world, int64_t i, const Moments &m) {
-    ViscousSystem &v = world.viscous;
+double seen_shear(const World &world, int64_t i, const Moments &m) {
+    const ViscousSystem &v = world.viscous;
     double least = 1;
-    v.shear_axis.x[i] = v.shear_axis.y[i] = 0;
     for (const Contact &contact : Rows(world).contacts_of(i)) {
         const Vector &n = world.walls.plates[contact.listed_plate].segment().normal;
         double ghosts = 0;
@@ -318,12 +317,7 @@ double find_seen_shear(World &world, int64_t i, const Moments &m) {
             }
         const double own = n.x() * n.x() * m.kxx + 2 * n.x() * n.y() * m.kxy + n.y() * n.y() * m.kyy;
         const double known = std::max(own, deficient_share * world.constants.lattice.second_moment);
-        const double share = known / (known + ghosts);
-        if (share < least) {
-            least = share;
-            v.shear_axis.x[i] = -2 * n.x() * n.y();
-            v.shear_axis.y[i] = n.x() * n.x() - n.y() * n.y();
-        }
+        least = std::min(least, known / (known + ghosts));
     }
     return least;
 }
@@ -376,7 +370,7 @@ void make_inner_shapes(World &world) {
             v.inner_xx[i] = fit(0, 0);
             v.inner_xy[i] = fit(0, 1);
             v.inner_yy[i] = fit(1, 1);
-            v.seen_shear[i] = find_seen_shear(world, i, m);
+            v.seen_shear[i] = seen_shear(world, i, m);
             v.beside[i] = sees_one_plate(world, i, m) ? 1.0 : 0.0;
         }
     });
@@ -416,8 +410,6 @@ void make_room(World &world) {
         field->resize(n);
     for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness, &v.beside, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
         field->resize(with_images);
-    v.shear_axis.resize(n);
-    v.unseen.resize(n);
     v.partial.resize(block_count(n));
 }
 
