@@ -40,8 +40,8 @@ struct ViscousSystem {
     Field<double> beside;                       // 1 where one plate is in reach, else 0
     Field<double> seen_shear;                   // of the shear along plates, the share that the gradient sees
     Field<double> mirror_share;
-    // u_ghost - u_plate = (tangential t (x) t + normal n (x) n) (u_mean - u_plate)
-    Field<double> ghost_normal, ghost_tangential;
+    // u_ghost - u_plate = (t (x) t + normal n (x) n) (u_mean - u_plate)
+    Field<double> ghost_normal;
     VectorField ghost_velocity, ghost_force;
     Field<double> pressure; // Pa, that the yield stress goes by
 
@@ -73,39 +73,22 @@ struct ViscousSystem {
              {&pair, &contact_pair, &seen_pair, &ghost_velocity, &ghost_force, &target, &velocity, &rate, &stress,
               &force, &change, &rate_change, &residual, &direction, &image, &bend})
             total += field->bytes();
-        for (const Field<double> *field : {&pair_weight,
-                                           &contact_weight,
-                                           &seen_weight,
-                                           &seen_shear,
-                                           &beside,
-                                           &inner_xx,
-                                           &inner_xy,
-                                           &inner_yy,
-                                           &full_xx,
-                                           &full_xy,
-                                           &full_yx,
-                                           &full_yy,
-                                           &lxx,
-                                           &lxy,
-                                           &lyx,
-                                           &lyy,
-                                           &stiffness,
-                                           &mirror_share,
-                                           &pressure,
-                                           &ghost_normal,
-                                           &ghost_tangential,
-                                           &diagonal,
-                                           &hxx,
-                                           &hxy,
-                                           &hyy,
-                                           &viscosity,
-                                           &kxx,
-                                           &kxy,
-                                           &kyy,
-                                           &partial,
-                                           &wall_rate,
-                                           &wall_stress,
-                                           &wall_change,
+        for (const Field<double> *field : {&pair_weight, &contact_weight,
+                                           &seen_weight, &seen_shear,
+                                           &beside,      &inner_xx,
+                                           &inner_xy,    &inner_yy,
+                                           &full_xx,     &full_xy,
+                                           &full_yx,     &full_yy,
+                                           &lxx,         &lxy,
+                                           &lyx,         &lyy,
+                                           &stiffness,   &mirror_share,
+                                           &pressure,    &ghost_normal,
+                                           &diagonal,    &hxx,
+                                           &hxy,         &hyy,
+                                           &viscosity,   &kxx,
+                                           &kxy,         &kyy,
+                                           &partial,     &wall_rate,
+                                           &wall_stress, &wall_change,
                                            &wall_h})
             total += static_cast<int64_t>(field->capacity() * sizeof(double));
         return total + static_cast<int64_t>(wall_laws.capacity() * sizeof(WallLaw));

@@ -47,7 +47,8 @@ GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, con
     }
 }
 
-// A ghost's velocity is that at its mirror point, turned round. The particles' shares in it fall off so fast with their
+// A ghost's velocity is that at its mirror point, turned round along the normal: shear does not pass through the surface
+// (viscous_walls.hpp). The particles' shares in it fall off so fast with their
 // distance from the point that on a lattice the mirror particle has it all but alone: then a uniform stress is in
 // equilibrium row by row. With the wide average of the default scheme's ghosts plates drag too much (rows beside a plate
 // overtake it).
@@ -70,7 +71,6 @@ void make_ghosts(World &world) {
     v.contact_weight.resize(v.contact_pair.x.size());
     v.mirror_share.resize(static_cast<int64_t>(mirrors.of_ghost.index.size()));
     v.ghost_normal.resize(w.ghost_count);
-    v.ghost_tangential.resize(w.ghost_count);
     v.ghost_velocity.resize(w.ghost_count);
     v.ghost_force.resize(w.ghost_count);
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
@@ -99,7 +99,6 @@ void make_ghosts(World &world) {
                 v.mirror_share[k] /= sum;
             const double ratio = w.ghost_distance[g] / std::max(distance / sum, least_distance * spacing);
             v.ghost_normal[g] = -ratio;
-            v.ghost_tangential[g] = 1.0; // no shear through the surface: viscous_walls.hpp has it
         }
     });
     for_each_block<ghost_block_size>(world.threads, static_cast<int64_t>(w.contacts.size()),
@@ -118,10 +117,10 @@ void make_ghosts(World &world) {
                                      });
 }
 
-// (tangential t (x) t + normal n (x) n) a
-GP_INLINE Vector scaled(const Walls &w, int64_t ghost, double tangential, double normal, const Vector &a) {
-    const Vector n(w.ghost_nx[ghost], w.ghost_ny[ghost]), t(-n.y(), n.x());
-    return tangential * t.dot(a) * t + normal * n.dot(a) * n;
+// (t (x) t + normal n (x) n) a
+GP_INLINE Vector scaled(const Walls &w, int64_t ghost, double normal, const Vector &a) {
+    const Vector n(w.ghost_nx[ghost], w.ghost_ny[ghost]);
+    return a + (normal - 1) * n.dot(a) * n;
 }
 
 void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
@@ -139,7 +138,7 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
             Vector own = Vector::Zero();
             if (plates == Plates::move)
                 own = plate.velocity();
-            const Vector ghost = own + scaled(w, g, v.ghost_tangential[g], v.ghost_normal[g], mean - own);
+            const Vector ghost = own + scaled(w, g, v.ghost_normal[g], mean - own);
             v.ghost_velocity.x[g] = ghost.x();
             v.ghost_velocity.y[g] = ghost.y();
         }
@@ -264,8 +263,8 @@ GP_INLINE Vector force_of_contact(const View &v, const World &world, const Vecto
     const int64_t c = &contact - world.walls.contacts.data();
     for (int64_t k = mirrors.contact_start[c]; k < mirrors.contact_start[c + 1]; ++k) {
         const int32_t g = mirrors.ghost[k];
-        force += s.mirror_share[mirrors.place[k]] * scaled(world.walls, g, s.ghost_tangential[g], s.ghost_normal[g],
-                                                           Vector(s.ghost_force.x[g], s.ghost_force.y[g]));
+        force += s.mirror_share[mirrors.place[k]] *
+                 scaled(world.walls, g, s.ghost_normal[g], Vector(s.ghost_force.x[g], s.ghost_force.y[g]));
     }
     return force;
 }
