@@ -139,7 +139,7 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
         const Segment &s = plate.segment();
         const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
         const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
-        const bool sticks = rough && world.constants.scheme != Scheme::adjoint;
+        const bool sticks = rough && by_number_density(world.constants.scheme);
         contact_force(v, sticks ? a : through, rough ? a : through, contact);
         // A wall only pushes.
         const Vector &n = s.normal;

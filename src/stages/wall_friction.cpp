@@ -51,11 +51,12 @@ double rough_ratio(const World &world, const Contact &contact, double mu) {
 
 void wall_friction(World &world) {
     const Particles &p = world.particles;
-    const bool by_solve = world.constants.scheme != Scheme::adjoint; // rough plates: part of the implicit solve
+    const bool sticks =
+        world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
     for (const Contact &contact : world.walls.contacts) {
         const Plate &plate = world.walls.plates[contact.plate];
         const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
-        if (plate.spec().friction == GP_WALL_FREE_SLIP || (rough && by_solve))
+        if (plate.spec().friction == GP_WALL_FREE_SLIP || (rough && sticks))
             continue;
         const int64_t i = contact.particle;
         const Segment &s = plate.segment();
