@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import Callable
 
 from coefficients import COEFFICIENTS, FINE, NUMERICAL, Coefficient
+from long_shear import PROGRAM as WALLS
+from long_shear import long_shear
 from run import Program, Run
 from theory import SHEAR_TO_BULK
 
@@ -23,7 +25,8 @@ PROGRAMS = {
             "examples/c/example.[ch]",
         ),
         records=True,
-    )
+    ),
+    "walls": WALLS,
 }
 
 
@@ -389,5 +392,6 @@ def studies() -> dict[str, list[Run]]:
             coarse(r, d, h) for r in COARSE_RESOLUTIONS for d in COARSE_DIAMETERS for h in COARSE_HORIZONS
         ],
         "resolution": [resolution_run(r) for r in RESOLUTIONS],
+        "long_shear": long_shear(),
         "million": [million()],
     }
