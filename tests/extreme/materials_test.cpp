@@ -86,8 +86,21 @@ TEST(GrainDiameter, GoesFromOneLimitOfTheLawToTheOther) {
 TEST(RateConstant, GoesFromOneLimitOfTheLawToTheOther) {
     gp_material m = beads();
     m.i0 = 1e9;
-    const double weak = deposit(m).peak_height; // mu differs by 1e-9, and the motion by what that grows to
-    EXPECT_NEAR(weak, deposit(of_friction(m.mu_s)).peak_height, 1e-6 * weak);
+    // mu differs by 1e-9, and the motion by what that has grown to: after .1 s, in which a column falls, 2e-10 of the place of its
+    // front, 1e-7 of the kinetic energy between .3 and 1 s. What it comes to in the end is chaos: means are the same.
+    std::vector<double> x[2];
+    for (const bool limit : {false, true}) {
+        Sim sim(config(Collapse::length / resolution));
+        sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height,
+                   sim.material(limit ? of_friction(m.mu_s) : m));
+        sim.add(floor_at(0, -0.6, 0.6));
+        sim.run(0.1);
+        x[limit] = sim.field(GP_FIELD_X);
+        const std::vector<double> y = sim.field(GP_FIELD_Y);
+        x[limit].insert(x[limit].end(), y.begin(), y.end());
+    }
+    EXPECT_LT(difference(x[0], x[1]), 1e-6 * Collapse::length / resolution);
+    expect_same(deposits(m), deposits(of_friction(m.mu_s)), 0.02);
     m.i0 = 1e-9; // the means of 40 runs differ by -.4 +- .2 % in the peak and -.8 +- .2 % in the potential energy
     const Deposits limit = deposits(m, 40), strong = deposits(of_friction(m.mu_2), 40);
     expect_means_near("peak", limit.peak, strong.peak, 0.015 * strong.peak.mean());
