@@ -103,11 +103,15 @@ def incline_column(results: Collection) -> str:
     return table(header, rows)
 
 
+def _sheared(mu_wall: float) -> float:
+    """Thickness of the layer at a wall where tau > mu_s p, m: tau falls linearly to the middle."""
+    return SILO_WIDTH / 2 * (1 - MU_S / mu_wall)
+
+
 def _plug_speed(mu_wall: float) -> float:
-    """Of the core of a deep silo whose walls bear this shear over normal stress, m/s. p = rho g W / (2 mu_wall) across, and the
-    shear stress falls linearly from the wall to the middle: it flows where tau > mu_s p."""
+    """Of the core of a deep silo whose walls bear this shear over normal stress, m/s; p = rho g W / (2 mu_wall) across."""
     pressure = DENSITY * GRAVITY * SILO_WIDTH / (2 * mu_wall)
-    thickness, steps = SILO_WIDTH / 2 * (1 - MU_S / mu_wall), 400
+    thickness, steps = _sheared(mu_wall), 400
     speed = 0.0
     for k in range(steps):
         mu = mu_wall * (1 - 2 * (k + 0.5) * thickness / steps / SILO_WIDTH)
@@ -187,8 +191,9 @@ deposit. There is no exact value: the coarser is compared with the finest.
 
 0.06 m wide, 0.36 m high, rough walls; the floor, free to slip, sinks at 1 cm/s; means from 0.5 to 1.5 s. Right for T/N is what
 μ(I) has deep in the silo: the shear stress falls linearly from the walls, the core moves as a plug, and the layers beside
-the walls that take its {1000 * SILO_SPEED:g} mm/s are {1000 * SILO_WIDTH / 2 * (1 - MU_S / wall_friction()):.1f} mm thick. For the floor "right" is Janssen's share of the weight with K = 1 and tan 21°: a convention, not a
-solution. The law does not say what the vertical stress of the plug is, which is not at yield; a floor that gives way takes it off the
-plug above, while the pressure on the walls stays. K of ours is that with which Janssen's formula has our floor's share.
+the walls that take its {1000 * SILO_SPEED:g} mm/s are {1000 * _sheared(wall_friction()):.1f} mm thick. For the floor "right" is Janssen's share of the
+weight with K = 1 and tan 21°: a convention, not a solution. The law does not say what the vertical stress of the plug is, which
+is not at yield; a floor that gives way takes it off the plug above, while the pressure on the walls stays. K of ours is
+that with which Janssen's formula has our floor's share.
 
 {silo(results)}"""
