@@ -12,7 +12,6 @@ import document
 import long_shear
 import runs
 import sections
-import theory
 import verdicts
 from coefficients import CRITERION, SCENE
 from document import bullets, missing_runs, provenance, tidy, write_report
@@ -161,8 +160,7 @@ Noise: rms departure of a particle's pressure from the plane fitted to its neigh
 ## Zero-energy modes
 
 A layer at rest on the lattice is given velocities of alternating sign, ±1e-4 c0, by particles (checkerboard) or by rows
-(stripes). The gradient sees nothing of them; the penalty damps them at a rate that follows from the lattice: that of
-{theory.LEAST_AT_REST:g} at least, which is what acts inside the yield surface of any smaller one but 0. Without it
+(stripes). The gradient sees nothing of them; the penalty damps them at a rate that follows from the lattice. Without it
 they still lose energy to floor, free surface and collisions.
 
 {figure("modes", drawn, "Decay of velocities that the gradient does not see; dotted: theory of the penalty alone")}

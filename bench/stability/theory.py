@@ -12,12 +12,6 @@ import math
 import numpy as np
 
 SHEAR_TO_BULK = 0.3  # shear modulus over bulk modulus of the elastic scheme; 0: shear is left to an implicit solve
-LEAST_AT_REST = 0.2  # of the zero-energy penalty inside the yield surface of the elastic scheme, where there is one
-
-
-def penalty_at_rest(penalty: float, shear: float = SHEAR_TO_BULK) -> float:
-    """What acts of this setting in a layer at rest."""
-    return max(penalty, LEAST_AT_REST) if penalty > 0 and shear > 0 else penalty
 
 
 def neighbours(radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -96,7 +90,6 @@ def _largest_step(stiffness: np.ndarray, damping: np.ndarray) -> float:
 def surface(horizon: float, bulk: float = 0.1, penalty: float = 0.02, shear: float = SHEAR_TO_BULK) -> float:
     """Largest dt x wave speed / dl of the default scheme with a free surface."""
     rows = 2 * math.ceil(horizon) + 2
-    penalty = penalty_at_rest(penalty, shear)
     waves = math.pi * np.array([0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0])
     return math.sqrt(1 + shear) * min(_largest_step(*_strip(horizon, k, rows, bulk, penalty, shear)) for k in waves)
 
@@ -122,7 +115,6 @@ def interior(horizon: float, bulk: float = 0.1, penalty: float = 0.02, shear: fl
     dx, dy = _symbols(horizon, w * r, True)
     q2 = (dx**2 + dy**2) / moment**2
     pairs, _ = _symbols(horizon, w, False)
-    penalty = penalty_at_rest(penalty, shear)
     damping = (2 if shear else 1) * bulk * q2 + penalty / w.sum() * (pairs - moment * q2)
     stiffness = np.maximum((1 + shear) * q2, 1e-12)
     return math.sqrt(1 + shear) * float(np.min((np.sqrt(damping**2 + 4 * stiffness) - damping) / stiffness))
@@ -145,8 +137,7 @@ def number_density_interior(horizon: float, interaction: float, force_states: bo
 
 
 def checkerboard_decay(horizon: float, penalty: float, pattern: str) -> float:
-    """Rate of the kinetic energy of a pattern that the gradient does not see, in a layer at rest, in c0 / dl."""
-    penalty = penalty_at_rest(penalty)
+    """Rate of the kinetic energy of a pattern that the gradient does not see, in c0 / dl."""
     x, y, w = neighbours(horizon)
     sign = (-1.0) ** (x + y) if pattern == "checkerboard" else (-1.0) ** y
     return 2 * penalty * float(w @ (1 - sign)) / w.sum()
