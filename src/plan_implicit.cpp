@@ -35,7 +35,6 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         support,
         // reads velocity, pressure; writes velocity, position, stress
         rows.particles("viscous_solve", "regularised mu(I) law, implicit", stages::viscous_solve),
-        rows.same("wall_friction"),
         rows.same("side_wall_friction"),
         rows.same("collide"),
         rows.other("wall_contact", stages::wall_hold),

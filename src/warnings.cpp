@@ -34,16 +34,11 @@ constexpr double drift_limit = 0.02;
 constexpr double flowing_share = 0.2; // of the particles, at least
 
 std::string text_of_drift(const World &world, double drift) {
-    const gp_config &config = world.scene->config();
-    const char *remedy = "set a smaller gp_config.spacing or a larger horizon";
-    if (config.density_diffusion == 0)
-        remedy =
-            "with gp_config.density_diffusion = 0 nothing ties the density to the spacing of the particles: set it to "
-            "its default";
     return format_text(
         "where the material flows the particles lie %.2g %% closer than their density says at time %g s, so "
-        "the material has lost volume (gp_state.volume_drift): %s",
-        100 * drift, world.clock.time, remedy);
+        "the material has lost volume (gp_state.volume_drift): set a smaller gp_config.spacing or a larger "
+        "horizon",
+        100 * drift, world.clock.time);
 }
 
 // The largest energy that the ledger has dealt with, J/m.

@@ -263,6 +263,7 @@ def motion_of(scheme: str) -> list[Run]:
 ROUGH_HORIZONS = (2.2, 2.6, 3.0)
 UNDAMPED = {"zero-energy penalty": "penalty", "density diffusion": "diffusion", "bulk viscosity": "bulk_viscosity"}
 PENALTIES = (0.0, 0.005, 0.01, 0.02, 0.04, 0.1)
+MODE_PENALTIES = (0.0, 0.02, 0.1, 0.3, 0.5)  # inside the yield surface the least is 0.2
 MODES = ("checkerboard", "stripes")
 
 
@@ -277,7 +278,7 @@ def undamped(name: str) -> Run:
 
 def mode(pattern: str, penalty: float) -> Run:
     options = _options(penalty=penalty)
-    arguments = ("layer", "--mode", pattern, "--end", "0.02", "--interval", "0.0005", "--rough", "1", *options)
+    arguments = ("layer", "--mode", pattern, "--end", "0.02", "--interval", "0.0002", "--rough", "1", *options)
     return Run(_name("mode", pattern, options=options), "stability", arguments, 0.3)
 
 
@@ -384,7 +385,7 @@ def studies() -> dict[str, list[Run]]:
         "creep": [run for scheme in SCHEMES for run in motion_of(scheme)],
         "drift": [rest.run for s in SCHEMES.values() for rest in rests_of(s)],
         "roughness": [rough_horizon(h) for h in ROUGH_HORIZONS] + [undamped(name) for name in UNDAMPED],
-        "modes": [mode(pattern, penalty) for pattern in MODES for penalty in PENALTIES],
+        "modes": [mode(pattern, penalty) for pattern in MODES for penalty in MODE_PENALTIES],
         "sensitivity": sensitivity(),
         "sensitivity_fine": sensitivity_fine(),
         "coarse": [

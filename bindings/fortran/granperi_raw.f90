@@ -160,14 +160,20 @@ module granperi_raw
             !! GP_DENSITY_NUMBER
     end type
 
-    !> What the wall does to the tangential velocity.
-    integer(c_int32_t), parameter :: GP_WALL_NO_SLIP = 0
-        !! the material sticks to a rough wall as far as its own friction allows
+    !> What the wall does to the tangential velocity. The traction along a wall is a law of friction: it holds what it
+    !> can, never drives, and is never more than the material itself bears there, mu(I) of the rate at the wall's
+    !> surface times the wall's normal force on each particle (with GP_STRESS_IMPLICIT the shear at a rough wall is part
+    !> of the implicit solve).
+    integer(c_int32_t), parameter :: GP_WALL_NO_SLIP = 0 !! a rough wall: the material's own friction
     integer(c_int32_t), parameter :: GP_WALL_FREE_SLIP = 1
         !! no shear traction. The forces reach over the horizon: beside a pressure that changes along the plate, a share
         !! of the order of dl / extent of the scene still acts along it
-    integer(c_int32_t), parameter :: GP_WALL_COULOMB = 2 !! tangential traction up to wall_mu times the normal one
+    integer(c_int32_t), parameter :: GP_WALL_COULOMB = 2
+        !! up to wall_mu times the normal traction, or what the material bears, if that is less
 
+    !> Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn
+    !> by 50 degrees at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its
+    !> own.
     type, bind(c) :: gp_plate
         integer(c_int32_t) :: struct_size = 0
         real(c_double) :: x0
@@ -728,11 +734,11 @@ module granperi_raw
         !> before. A program that is killed may leave the part, to be deleted. After GP_E_IO (disk full, no such
         !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. Memory:
         !> about twice the size of the file, 200 to 300 bytes per particle. gp_load refuses a file that is cut off,
-        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer format: GP_E_VERSION; *sim is
-        !> then NULL. A checkpoint is for the version of the library that wrote it; another one may load it, if it has
-        !> the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5. C has one
-        !> name space for types and functions, and gp_load is also the type above: hence a macro over the function
-        !> gp_load_file (binaries also export it as gp_load).
+        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another format (0.1 wrote 1, this
+        !> version 2): GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;
+        !> another one may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED
+        !> in a build without HDF5. C has one name space for types and functions, and gp_load is also the type above:
+        !> hence a macro over the function gp_load_file (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim

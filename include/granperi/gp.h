@@ -216,13 +216,18 @@ typedef struct gp_column {
 /* Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column). */
 GP_API gp_status gp_column_init(gp_column *column, size_t size);
 
-/* What the wall does to the tangential velocity. */
+/* What the wall does to the tangential velocity. The traction along a wall is a law of friction: it holds what it can, never
+ * drives, and is never more than the material itself bears there, mu(I) of the rate at the wall's surface times the wall's normal
+ * force on each particle (with GP_STRESS_IMPLICIT the shear at a rough wall is part of the implicit solve). */
 enum {
-    GP_WALL_NO_SLIP = 0,   /* the material sticks to a rough wall as far as its own friction allows */
+    GP_WALL_NO_SLIP = 0,   /* a rough wall: the material's own friction */
     GP_WALL_FREE_SLIP = 1, /* no shear traction. The forces reach over the horizon: beside a pressure that changes along
                               the plate, a share of the order of dl / extent of the scene still acts along it */
-    GP_WALL_COULOMB = 2    /* tangential traction up to wall_mu times the normal one */
+    GP_WALL_COULOMB = 2    /* up to wall_mu times the normal traction, or what the material bears, if that is less */
 };
+
+/* Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn by 50 degrees
+ * at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its own. */
 
 typedef struct gp_plate {
     uint32_t struct_size;
@@ -534,8 +539,8 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
  * GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or be saved
  * elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle.
  *
- * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer
- * format: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
+ * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another
+ * format (0.1 wrote 1, this version 2): GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
  * it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5.
  *
  * C has one name space for types and functions, and gp_load is also the type above: hence a macro over the function

@@ -2,22 +2,15 @@
 // these alone, so that it does nothing in material at rest.
 #include "parallel.hpp"
 #include "stages/stages.hpp"
-#include "stages/yield_pressure.hpp"
 
 namespace gp::stages {
 
 void flowing(World &world) {
     Particles &p = world.particles;
-    const double *yield_pressure = p.pressure.data();
-    if (world.constants.scheme ==
-        Scheme::implicit) { // near plates it yields by another: what bears more than mu p rests
-        find_yield_pressure(world);
-        yield_pressure = world.viscous.pressure.data();
-    }
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const double stress = equivalent_stress({p.sxx[i], p.sxy[i]});
-            p.flowing[i] = world.map_of(i).at_yield(stress, yield_pressure[i]) ? 1.0 : 0.0;
+            p.flowing[i] = world.map_of(i).at_yield(stress, p.pressure[i]) ? 1.0 : 0.0;
         }
     });
 }

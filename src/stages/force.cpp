@@ -95,8 +95,8 @@ struct WallView {
     double inverse_radius;
 };
 
-// Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and the ghosts' share of sigma : L, that is
-// sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
+// Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and
+// the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
 GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &seen, Contact &contact) {
     const int64_t i = contact.particle;
     const double xi = v.x[i], yi = v.y[i];
@@ -139,7 +139,7 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
         const Segment &s = plate.segment();
         const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
         const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
-        const bool sticks = rough && world.constants.scheme != Scheme::adjoint;
+        const bool sticks = rough && by_number_density(world.constants.scheme);
         contact_force(v, sticks ? a : through, rough ? a : through, contact);
         // A wall only pushes.
         const Vector &n = s.normal;

@@ -82,8 +82,8 @@ GP_INLINE void keep_inner_gradient(const Tensor &l, Contact &first) {
 GP_INLINE void finish(const View &v, int64_t i, Moments m) {
     const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
     const Rows::Run run = v.rows.contacts_of(i);
-    Contact *const first = v.contacts + (run.first - v.rows.contacts), *const last =
-                                                                           v.contacts + (run.last - v.rows.contacts);
+    Contact *const first = v.contacts + (run.first - v.rows.contacts);
+    Contact *const last = v.contacts + (run.last - v.rows.contacts);
     if (first != last)
         keep_inner_gradient(gradient_of(m, inverse_shape(m, v.lattice_moment)), *first);
     for (Contact *contact = first; contact != last; ++contact) {

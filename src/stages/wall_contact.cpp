@@ -22,9 +22,11 @@ Vector place_over(const World &world, const Contact &contact) {
 // The friction of a blow that stops `approach` within the step, under the blow's pressure on the particle's width. (With
 // mu_s, fronts of grains without stress ran on: a column with a = .7 on an incline of 16 degrees had 98 % of its mass within
 // 1.34 m, with this .84 m.)
-double friction_of_blow(const World &world, const Contact &contact, double approach, double rate) {
+double friction_of_blow(const World &world, const Contact &contact, double approach, const SurfaceRate &rate,
+                        double slip) {
     const double mass = world.material_of(contact.particle).density * world.constants.spacing; // kg/m2
-    const double material = world.map_of(contact.particle).friction(rate, mass * approach / world.clock.dt);
+    const double material =
+        friction_left(world.map_of(contact.particle), rate, slip, approach, mass * approach / world.clock.dt);
     return wall_friction_bound(world.walls.plates[contact.plate].spec(), material);
 }
 
@@ -45,8 +47,8 @@ void wall_contact(World &world) {
         if (approach <= 0)
             continue;
         const double slip = s.tangent.dot(relative);
-        const double mu =
-            friction_of_blow(world, contact, approach, rate_at_wall(s, at, std::abs(slip), world.constants.spacing));
+        const double mu = friction_of_blow(world, contact, approach,
+                                           {rate_at_wall(s, at, 1.0, world.constants.spacing), 0}, std::abs(slip));
         const double stop = std::min(std::abs(slip), mu * approach);
         push_by_plate(world, contact, approach * s.normal + (slip > 0 ? -stop : stop) * s.tangent);
     }
@@ -80,7 +82,8 @@ void hold(World &world, Contact &contact, const Vector &ahead) {
     const double gap = s.distance(at) - dt * s.normal.dot(present) - nearest; // when the step began
     const double least = -std::max(0.0, gap) / dt;                            // of away
     const double pressed = std::max(0.0, contact.held_normal + least - away);
-    const double most = friction_of_blow(world, contact, pressed, 0) * pressed; // mu_s: the solve has the rate's part
+    const double most =
+        friction_of_blow(world, contact, pressed, {0, 0}, 0) * pressed; // mu_s: the solve has the rate's part
     const double dragged = std::clamp(contact.held_tangential - slip, -most, most);
     const Vector change = (pressed - contact.held_normal) * s.normal + (dragged - contact.held_tangential) * s.tangent;
     if (change == Vector::Zero())

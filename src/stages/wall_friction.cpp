@@ -13,26 +13,21 @@ namespace gp::stages {
 
 namespace {
 
-// The rate at the plate's surface of a particle that slips in this direction (1 or -1) along the tangent, 1/s. Between surface
-// and particle the mean rate is slip over distance, y; of a curved profile that is the rate at y/2. The gradient that the
-// particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and the rate at
-// the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola.
-//
-// It is that of the velocities that the step's stresses are made of: with the slip that their forces leave before the friction,
-// row 1 of a shear box slipped by 5 % too little.
-double surface_rate(const World &world, const Contact &contact, double direction) {
+// Between surface and particle the mean rate is slip over distance, y; of a curved profile that is the rate at y/2. The gradient
+// that the particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and
+// the rate at the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. direction: 1 or -1, of the slip along the
+// tangent.
+SurfaceRate surface_rate(const World &world, const Contact &contact, double direction) {
     const Particles &p = world.particles;
     const Constants &c = world.constants;
     const int64_t i = contact.particle;
     const Plate &plate = world.walls.plates[contact.plate];
     const Segment &s = plate.segment();
     const double dt = world.clock.dt;
-    const Vector velocity(p.vx[i] - dt * p.ax[i], p.vy[i] - dt * p.ay[i]);
-    const Vector at =
-        world.walls.nearest_image(plate, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was then
-    const double mean = rate_at_wall(s, at, direction * s.tangent.dot(velocity - plate.velocity()), c.spacing);
+    const Vector at = world.walls.nearest_image(plate, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was
+    const double share = c.one_sided.share(s.distance(at) / c.horizon);
     const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
-    return mean + c.one_sided.share(s.distance(at) / c.horizon) * (mean - inside);
+    return {(1 + share) * rate_at_wall(s, at, 1.0, c.spacing), -share * inside};
 }
 
 // Shear over normal traction that a particle's material bears on planes along the plate, at the yield mu p of the rate at the
@@ -56,11 +51,12 @@ double rough_ratio(const World &world, const Contact &contact, double mu) {
 
 void wall_friction(World &world) {
     const Particles &p = world.particles;
-    const bool by_solve = world.constants.scheme != Scheme::adjoint; // rough plates: part of the implicit solve
+    const bool sticks =
+        world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
     for (const Contact &contact : world.walls.contacts) {
         const Plate &plate = world.walls.plates[contact.plate];
         const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
-        if (plate.spec().friction == GP_WALL_FREE_SLIP || (rough && by_solve))
+        if (plate.spec().friction == GP_WALL_FREE_SLIP || (rough && sticks))
             continue;
         const int64_t i = contact.particle;
         const Segment &s = plate.segment();
@@ -71,10 +67,17 @@ void wall_friction(World &world) {
         const double direction = slip > 0 ? 1 : -1;
         // A particle without stress of its own is under what its plate presses it with.
         const double pressure = std::max(p.pressure[i], normal * world.constants.spacing);
-        const double mu = world.map_of(i).friction(surface_rate(world, contact, direction), pressure);
-        const double ratio = rough ? rough_ratio(world, contact, mu) : wall_friction_bound(plate.spec(), mu);
-        const double most = ratio * normal * world.clock.dt / world.material_of(i).density;
-        const double stop = std::min(std::abs(slip), most);
+        const double once = normal * world.clock.dt / world.material_of(i).density; // m/s, of friction 1
+        const ReturnMap &law = world.map_of(i);
+        const SurfaceRate rate = surface_rate(world, contact, direction);
+        const auto ratio_of = [&](double mu) {
+            return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(plate.spec(), mu);
+        };
+        // The share of mu that acts along the plate depends on mu itself, weakly.
+        double mu = law.mu_s;
+        for (int pass = 0; pass < 2; ++pass)
+            mu = friction_left(law, rate, std::abs(slip), once * ratio_of(mu) / std::max(mu, 1e-300), pressure);
+        const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
         if (stop <= 0)
             continue;
         const double before = world.ledger.dissipated;

@@ -149,7 +149,7 @@ class LevelFloor : public testing::TestWithParam<int32_t> {};
 TEST_P(LevelFloor, InPiecesIsOnePlate) {
     // With a lattice of ghosts behind each plate, two of them had pressures of .39 to 1.52 and no rest.
     struct Outcome {
-        double height;
+        double height, low, high; // m; lowest and highest pressure of the lowest row over the hydrostatic one
         Force load;
     };
     const auto settled = [](int count) {
@@ -157,13 +157,16 @@ TEST_P(LevelFloor, InPiecesIsOnePlate) {
         const Settled s = settle(level.sim, 0.5, 0.05);
         EXPECT_GE(s.at_rest, 0) << count << " pieces";
         const auto [low, high] = level.pressures();
-        EXPECT_GT(low, 0.98) << count << " pieces";
-        EXPECT_LT(high, 1.02) << count << " pieces";
-        return Outcome{mean(level.sim.field(GP_FIELD_Y)), total_load(level.sim, level.ids, level.points)};
+        return Outcome{mean(level.sim.field(GP_FIELD_Y)), low, high, total_load(level.sim, level.ids, level.points)};
     };
     const Outcome one = settled(1);
+    // On a smooth floor the column's foot gives a little at its two corners.
+    EXPECT_GT(one.low, GetParam() == GP_WALL_FREE_SLIP ? 0.97 : 0.98);
+    EXPECT_LT(one.high, 1.02);
     for (const int count : {2, 3, 9, 32}) {
         const Outcome other = settled(count);
+        EXPECT_NEAR(other.low, one.low, 1e-6) << count << " pieces";
+        EXPECT_NEAR(other.high, one.high, 1e-6) << count << " pieces";
         // The same ghosts at the same places: what differs is rounding, which a scene at rest does not amplify.
         EXPECT_NEAR(other.height, one.height, 1e-8 * Level::spacing) << count << " pieces";
         const double weight = density * gravity * Level::width * Level::height;

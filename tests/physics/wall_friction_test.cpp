@@ -42,7 +42,10 @@ gp_material coulomb_material(double mu) {
 
 } // namespace
 
-// mu_s = mu_2: the traction is mu times the weight, whatever the rows, and the layer stops at u / (mu g).
+// mu_s = mu_2: the traction is mu times the weight, whatever the rows, and the layer stops at u / (mu g). All of it stops at once,
+// sheared elastically by mu g (h y - y^2 / 2) / cs^2, and sways: with no loss its mean velocity would have the amplitude
+// 16 mu g h / (pi^3 cs) (the first mode's), 3.5 % of u with 20 rows, and its mean place that of the shear, mu g h^2 / (3 cs^2),
+// .04 dl, to both sides. It yields as it swings: about half of that is found, and with 4 rows and less none after .05 s.
 TEST(SlidingLayer, IsBrakedByItsWeightTimesTheFriction) {
     const double mu = std::tan(degrees(21)), speed = 0.5, stop = speed / (mu * gravity);
     for (const int32_t friction : {GP_WALL_NO_SLIP, GP_WALL_COULOMB})
@@ -59,7 +62,20 @@ TEST(SlidingLayer, IsBrakedByItsWeightTimesTheFriction) {
             EXPECT_GT(layer.mean_speed(), 0.005 * speed);
             layer.sim.run(1.03 * stop);
             EXPECT_LT(layer.mean_speed(), 0.01 * speed);
-            EXPECT_GT(layer.mean_speed(), -1e-3 * speed); // it does not come back
+            const double h = rows * 0.0025, shear_wave = std::sqrt(0.3) * 10;
+            const double amplitude = 16 * mu * gravity * h / (std::pow(pi, 3) * shear_wave);
+            const double sway = mu * gravity * h * h / (3 * shear_wave * shear_wave), interval = 1e-3;
+            double way = 0;
+            for (int k = 1; k <= 50; ++k) {
+                way += 0.5 * interval * layer.mean_speed();
+                layer.sim.run(1.03 * stop + interval * k);
+                way += 0.5 * interval * layer.mean_speed();
+                ASSERT_LT(std::abs(layer.mean_speed()), amplitude) << k;
+                ASSERT_LT(std::abs(way), 2 * sway) << "it neither comes back nor creeps on: " << k;
+            }
+            if (rows <= 4) {
+                EXPECT_LT(std::abs(layer.mean_speed()), 1e-6 * speed);
+            }
         }
 }
 
@@ -103,14 +119,17 @@ TEST(SlidingLayer, StopsWhereTheLawStopsIt) {
         EXPECT_LT(last, 0.002 * speed);
         return sum;
     };
-    for (const auto &[rows, tolerance] : {std::pair<int, double>{1, 0.03}, {2, 0.04}, {4, 0.065}, {10, 0.04}, {16, 0.03}}) {
+    for (const auto &[rows, tolerance] :
+         {std::pair<int, double>{1, 0.03}, {2, 0.04}, {4, 0.065}, {10, 0.04}, {16, 0.03}}) {
         const double found = way_of(rows);
         std::printf("  %d rows: %.4f m, the law %.4f\n", rows, found, way);
         EXPECT_NEAR(found, way, tolerance * way) << rows << " rows";
     }
 }
 
-// An incline: from rest to the Bagnold flow, as the equations in one dimension have it.
+// An incline: from rest to the Bagnold flow, as the equations in one dimension have it. The layer begins with its shear in balance
+// up to the yield, so what sets out at first is a plug on mu_s: its surface gains g (sin a - mu_s cos a) until the shear has
+// come up to it. (Without the shear it gained g sin a for the time of a shear wave, 16 % too much at .1 s.)
 TEST(InclinedLayer, SetsOutAsTheLawSays) {
     const Law law;
     const double h = 0.04, angle = degrees(26), along = gravity * std::sin(angle), down = gravity * std::cos(angle);
@@ -120,8 +139,11 @@ TEST(InclinedLayer, SetsOutAsTheLawSays) {
     for (const double t : {0.1, 0.3, 0.6}) {
         exact.run(t);
         layer.sim.run(t);
+        if (t == 0.1) {
+            EXPECT_NEAR(exact.surface(), (along - law.mu_s * down) * t, 1e-3 * exact.surface());
+        }
         const double found = layer.surface_ratio(20, [&](double) { return exact.surface(); });
         std::printf("  %g s: %.4f of the law's %.4f m/s\n", t, found, exact.surface());
-        EXPECT_NEAR(found, 1, 0.02) << t;
+        EXPECT_NEAR(found, 1, 0.01) << t; // .0002, .006, .005 off
     }
 }

@@ -225,6 +225,7 @@ TEST(Wave, IsWhatTheStagesMakeOfIt) {
     block.set(p.density, [&](double x, double y) { return own + height * sine(x, y); });
     for (double &value : p.pressure) // without pressure all of it flows
         value = 0;
+    stages::flowing(world); // says so to diffusion, which is alone here: density_of_spacing, the tie to N, does not run
     stages::gradient_and_exchange(world);
     stages::density_diffusion(world);
     const double share = world.scene->config().density_diffusion * c.sound_speed / c.spacing * world.clock.dt;
