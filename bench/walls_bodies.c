@@ -66,9 +66,7 @@ void incline_column(const choices *c) {
 void silo(const choices *c) {
     const double width = 0.06, height = 0.36, sinking = 0.01, from = 0.5, below = 0.05;
     const gp_config config = walls_config(c, width / c->rows);
-    const double mu_s = tan(21 * DEGREE), weight = DENSITY * GRAVITY * width * height;
-    /* Janssen with K = 1: the mean pressure p(z) has dp/dz = rho g - 2 mu p / W. */
-    const double reach = width / (2 * mu_s), janssen = reach / height * (1 - exp(-height / reach));
+    const double weight = DENSITY * GRAVITY * width * height;
     gp_load before[3], after[3];
     int32_t plates[3];
     double normal, shear;
@@ -91,7 +89,6 @@ void silo(const choices *c) {
     printf("friction %.5g traction over normal force of the walls\n", fabs(shear / normal));
     printf("floor %.5g of the weight\n", fabs(after[0].impulse_y - before[0].impulse_y) / (c->end - from) / weight);
     printf("walls %.5g of the weight\n", fabs(shear) / (c->end - from) / weight);
-    printf("janssen %.5g of the weight\n", janssen);
     walls_print_cost(sim);
     gp_destroy(sim);
 }

@@ -37,12 +37,14 @@ def section(results: Collection) -> str:
         for jitter in JITTERS:
             result = results(shear(n, jitter))
             summary = result.summary if result else {}
+            speeds = [summary[f"surface_{k}"] for k in (1, 2, 3, 4)] if result else []
             rows.append(
                 [f"{n}", f"{jitter:g}"]
                 + [fixed(summary.get(f"{name}_{k}")) for name in ("height", "surface") for k in (1, 2, 3, 4)]
+                + [fixed(sum(speeds) / 4) if speeds else NONE]
                 + [cpu(result.cpu) if result else NONE]
             )
     times = [f"{END * k / 4:g} s" for k in (1, 2, 3, 4)]
     return table(
-        ["h/dl", "jitter (dl)", *(f"height, {t}" for t in times), *(f"surface, {t}" for t in times), "CPU s"], rows
+        ["h/dl", "jitter (dl)", *(f"height, {t}" for t in times), *(f"surface, {t}" for t in times), "mean", "CPU s"], rows
     )

@@ -143,9 +143,10 @@ horizon holds a grain by few neighbours.
 
 ## Forty seconds of shear
 
-A layer of 20 d on an incline of {long_shear.ANGLE}°, its particles on the lattice or jittered, over {long_shear.END:g} s: mean height over that
-of the start, velocity of the uppermost row over Bagnold's at its height. Before
-0.2.0 density did not follow the spacing of the particles, and layers sank without end: with h/dl = 10 by 28 % within 12 s.
+A layer of 20 d on an incline of {long_shear.ANGLE}°, its particles on the lattice or jittered, over {long_shear.END:g} s: mean height over
+that of the start; velocity of the uppermost row over Bagnold's at its height, of 12 particles at one instant, and the mean
+of the four. Before 0.2.0 density did not follow the spacing of the particles, and layers sank without end: with h/dl = 10 by
+28 % within 12 s.
 
 {long_shear.section(collection)}
 
