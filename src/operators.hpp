@@ -32,18 +32,12 @@ struct Moments {
     }
 };
 
-// The same of ghosts, and sum w r.
-struct GhostMoments : Moments {
-    double wx = 0, wy = 0;
-};
-
-// Of the ghosts row[0 .. n) with the given positions and velocities. Those past the radius have weight 0.
-GP_INLINE GhostMoments moments_of_ghosts(const int32_t *__restrict row, int64_t n, double xi, double yi, double ui,
-                                         double vi, const double *__restrict x, const double *__restrict y,
-                                         const double *__restrict vx, const double *__restrict vy,
-                                         double inverse_radius) {
-    double all = 0, sx = 0, sy = 0, kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
-#pragma omp simd reduction(+ : all, sx, sy, kxx, kxy, kyy, mxx, mxy, myx, myy)
+// Adds the neighbours row[0 .. n) with the given positions and velocities. Neighbours past the radius have weight 0.
+GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t n, double xi, double yi, double ui,
+                           double vi, const double *__restrict x, const double *__restrict y,
+                           const double *__restrict vx, const double *__restrict vy, double inverse_radius) {
+    double all = 0, kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
+#pragma omp simd reduction(+ : all, kxx, kxy, kyy, mxx, mxy, myx, myy)
     for (int64_t k = 0; k < n; ++k) {
         const int32_t j = row[k];
         const double dx = x[j] - xi, dy = y[j] - yi;
@@ -51,8 +45,6 @@ GP_INLINE GhostMoments moments_of_ghosts(const int32_t *__restrict row, int64_t 
         const double wx = w * dx, wy = w * dy;
         const double du = vx[j] - ui, dv = vy[j] - vi;
         all += w;
-        sx += wx;
-        sy += wy;
         kxx += wx * dx;
         kxy += wx * dy;
         kyy += wy * dy;
@@ -61,18 +53,14 @@ GP_INLINE GhostMoments moments_of_ghosts(const int32_t *__restrict row, int64_t 
         myx += dv * wx;
         myy += dv * wy;
     }
-    GhostMoments sum;
-    sum.n = all;
-    sum.kxx = kxx;
-    sum.kxy = kxy;
-    sum.kyy = kyy;
-    sum.mxx = mxx;
-    sum.mxy = mxy;
-    sum.myx = myx;
-    sum.myy = myy;
-    sum.wx = sx;
-    sum.wy = sy;
-    return sum;
+    sum.n += all;
+    sum.kxx += kxx;
+    sum.kxy += kxy;
+    sum.kyy += kyy;
+    sum.mxx += mxx;
+    sum.mxy += mxy;
+    sum.myx += myx;
+    sum.myy += myy;
 }
 
 // Below this share of the full-lattice value an eigenvalue of K no longer describes a neighbourhood: a free corner has

@@ -32,9 +32,6 @@ struct Contact {
     double force_x, force_y;     // N/m3: force density on the particle
     double power;                // W/m3: of that force on the particle
     double ghost_power;          // W/m3: the ghosts' share of sigma : L
-    // Sums over the ghosts of w times the way to them times what of their velocity along the plate's normal the particle does
-    // not take part in (stages/gradient.cpp).
-    double left_out_x = 0, left_out_y = 0;
     // 1/s: the velocity gradient that the particle's neighbours make without ghosts; kept by its first contact.
     double inner_xx = 0, inner_xy = 0, inner_yx = 0, inner_yy = 0;
     double held_normal = 0, held_tangential = 0; // m/s: by wall_support and wall_hold in this step

@@ -334,7 +334,9 @@ module granperi_raw
         real(c_double) :: penalty_dissipated
             !! J/m, the part of dissipated that the zero-energy penalty took, and with GP_STRESS_IMPLICIT the like of it
             !! in the solve
-        real(c_double) :: wall_dissipated !! J/m, the part of the extrapolation at plates, of either sign
+        real(c_double) :: wall_dissipated
+            !! J/m, the part taken at plates beyond the material's own: by the extrapolation, of either sign, and by the
+            !! friction of rough plates
         real(c_double) :: diffusion_dissipated !! J/m, the part that density diffusion took
         real(c_double) :: bulk_dissipated !! J/m, the part that the bulk viscosity took
         real(c_double) :: collision_dissipated !! J/m, the part that collisions took

@@ -440,7 +440,8 @@ typedef struct gp_state {
     double sound_speed;            /* m/s, c0 in use */
     double penalty_dissipated;     /* J/m, the part of dissipated that the zero-energy penalty took, and with
                                       GP_STRESS_IMPLICIT the like of it in the solve */
-    double wall_dissipated;        /* J/m, the part of the extrapolation at plates, of either sign */
+    double wall_dissipated;        /* J/m, the part taken at plates beyond the material's own: by the extrapolation, of either
+                                      sign, and by the friction of rough plates */
     double diffusion_dissipated;   /* J/m, the part that density diffusion took */
     double bulk_dissipated;        /* J/m, the part that the bulk viscosity took */
     double collision_dissipated;   /* J/m, the part that collisions took */

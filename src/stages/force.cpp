@@ -97,8 +97,7 @@ struct WallView {
 
 // Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and
 // the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
-GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &seen, const Vector &normal,
-                             Contact &contact) {
+GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &seen, Contact &contact) {
     const int64_t i = contact.particle;
     const double xi = v.x[i], yi = v.y[i];
     double wx = 0, wy = 0, tx = 0, ty = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
@@ -119,10 +118,6 @@ GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &s
         gyx += dv * wdx;
         gyy += dv * wdy;
     }
-    gxx -= contact.left_out_x * normal.x();
-    gxy -= contact.left_out_y * normal.x();
-    gyx -= contact.left_out_x * normal.y();
-    gyy -= contact.left_out_y * normal.y();
     contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx;
     contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty;
     contact.ghost_power = seen(0, 0) * gxx + seen(0, 1) * gxy + seen(1, 0) * gyx + seen(1, 1) * gyy;
@@ -145,7 +140,7 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
         const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
         const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
         const bool sticks = rough && by_number_density(world.constants.scheme);
-        contact_force(v, sticks ? a : through, rough ? a : through, s.normal, contact);
+        contact_force(v, sticks ? a : through, rough ? a : through, contact);
         // A wall only pushes.
         const Vector &n = s.normal;
         const double pull = contact.force_x * n.x() + contact.force_y * n.y();

@@ -17,7 +17,6 @@ struct View {
     const double *x, *y, *vx, *vy;
     const Plate *plates;
     Contact *contacts;
-    bool turns_all; // the ghosts, of the motion along their plates' normals
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, lattice_moment;
     double *lxx, *lxy, *lyx, *lyy, *ixx, *ixy, *iyy;
@@ -73,16 +72,6 @@ GP_INLINE Tensor gradient_of(const Moments &m, const SymmetricTensor &g) {
     return l;
 }
 
-// The ghosts push with the force states p / k0 of a full neighbourhood. A particle among few compresses with p K^-1, which is
-// the larger the fewer they are: where ghosts turn round all of the motion along the normal (the implicit scheme's), the work of
-// their approach on it was up to five times what they took of its motion, and columns of three and five grains that fell on a
-// floor gained up to .27 of their energy. So it sees as much of their motion towards the plate as they push it for: k0^-1
-// over K^-1, along the normal; all of it where the neighbourhood is full.
-GP_INLINE double share_of_ghosts(const View &v, const Vector &n, const SymmetricTensor &g) {
-    const double stiff = v.lattice_moment * (n.x() * n.x() * g.xx + 2.0 * n.x() * n.y() * g.xy + n.y() * n.y() * g.yy);
-    return stiff > 1 ? 1 / stiff : 1.0;
-}
-
 GP_INLINE void keep_inner_gradient(const Tensor &l, Contact &first) {
     first.inner_xx = l(0, 0);
     first.inner_xy = l(0, 1);
@@ -98,30 +87,14 @@ GP_INLINE void finish(const View &v, int64_t i, Moments m) {
     if (first != last)
         keep_inner_gradient(gradient_of(m, inverse_shape(m, v.lattice_moment)), *first);
     for (Contact *contact = first; contact != last; ++contact) {
-        const Plate &plate = v.plates[contact->plate];
-        GhostMoments own = moments_of_ghosts(v.rows.ghosts(*contact), Rows::ghost_count(*contact), v.x[i], v.y[i],
-                                             v.vx[i], v.vy[i], v.gx, v.gy, v.gvx, v.gvy, v.inverse_radius);
-        if (v.turns_all) { // of the ghosts' motion along the normal, relative to the plate
-            const Vector &n = plate.segment().normal;
-            const double away = n.dot(Vector(v.vx[i], v.vy[i]) - plate.velocity());
-            contact->left_out_x = n.x() * own.mxx + n.y() * own.myx + away * own.wx;
-            contact->left_out_y = n.x() * own.mxy + n.y() * own.myy + away * own.wy;
-        }
-        drop_wall_shear(plate, own.mxx, own.mxy, own.myx, own.myy);
+        Moments own;
+        add_moments(own, v.rows.ghosts(*contact), Rows::ghost_count(*contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
+                    v.gy, v.gvx, v.gvy, v.inverse_radius);
+        drop_wall_shear(v.plates[contact->plate], own.mxx, own.mxy, own.myx, own.myy);
         m += own;
     }
     SymmetricTensor g = inverse_shape(m, v.lattice_moment);
     g = {carried * g.xx, carried * g.xy, carried * g.yy};
-    for (Contact *contact = first; v.turns_all && contact != last; ++contact) {
-        const Vector &n = v.plates[contact->plate].segment().normal;
-        const double left_out = 1 - share_of_ghosts(v, n, g);
-        contact->left_out_x *= left_out;
-        contact->left_out_y *= left_out;
-        m.mxx -= n.x() * contact->left_out_x;
-        m.mxy -= n.x() * contact->left_out_y;
-        m.myx -= n.y() * contact->left_out_x;
-        m.myy -= n.y() * contact->left_out_y;
-    }
     if (v.carried)
         v.carried[i] = carried;
     v.ixx[i] = g.xx;
@@ -185,7 +158,6 @@ View view_of(World &world, const ExchangeView &exchange) {
             p.vy.data(),
             w.plates.data(),
             w.contacts.data(),
-            world.constants.scheme == Scheme::implicit,
             w.ghost_x.data(),
             w.ghost_y.data(),
             w.ghost_vx.data(),

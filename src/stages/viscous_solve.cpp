@@ -125,9 +125,9 @@ void conjugate_gradients(World &world, double goal) {
 
 // Viscosity for what the gradient does not see of the motion, as a share of the material's own (as it is at the start of
 // the step): what is rigid in its visible motion is so in the rest. With .01, .02, .03, .05 the collapse with a = 1.25, L/dl = 16
-// ends with a peak of .403, .409, .414, .414, R90 of .98, .97, .98, .98; its smaller deposits creep on at up to 8e-4 (one of ten,
-// L/dl = 10), 7e-4, 4e-4 and 5e-6 m/s, by the last in proportion to delta.
-constexpr double hidden_share = 0.05;
+// ends with a peak of .403, .409, .414, .414, R90 of .98, .97, .98, .98; with too little single deposits creep on at up to
+// 8e-4 m/s (L/dl = 10), whatever delta is. With .03 it takes 3.5 % of what is dissipated, with .05 4.1 %.
+constexpr double hidden_share = 0.03;
 
 void find_stiffness(World &world) {
     const Particles &p = world.particles;

@@ -95,9 +95,7 @@ GP_MULTIVERSION void add_stresses(const View &view, const GhostRow &row, WallStr
 // be felt a horizon ahead: 1.66 rho c v in a block that falls on a floor, for 1.27, energy from the floor in columns of few grains,
 // 1.35 rho g H in single grains of a collapse's front, for 1.2. What a bowl of 24 plates gives back while the grains in it swing,
 // 1.5e-4 J/m in all, is 5e-5 with 1.
-// In the implicit scheme, with less than 1 the lowest rows sink by .2 dl: 7 % of the deposit's potential energy at L/dl = 16.
-constexpr double steepest_tangential = 0.5;
-template <bool Sheared> constexpr double normal_ratio = Sheared ? 0.25 : 1.0;
+constexpr double steepest_tangential = 0.5, normal_ratio = 0.25;
 
 bool at_yield(const World &world, int32_t i) {
     const Particles &p = world.particles;
@@ -141,7 +139,7 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
             const double mean_distance = n.dot(Vector(sums.x, sums.y)) / sums.w - w.ghost_distance[k];
             const double distance = std::max(mean_distance, contact_distance * world.constants.spacing);
             const double ratio = w.ghost_distance[k] / distance;
-            const double normal = -normal_ratio<Sheared> * n.dot(relative);
+            const double normal = -normal_ratio * n.dot(relative);
             // Without friction of its own a plate passes no shear through its surface.
             const double carried = Sheared ? -(flows ? ratio : std::min(ratio, steepest_tangential)) : 0.0;
             const double tangential = (rough ? carried : 1.0) * t.dot(relative);
