@@ -51,12 +51,13 @@ static void print_outcome(const outcome *o, double seconds, double particle_step
     printf("memory              %.6g bytes\n", o->memory);
     printf("drift               %.6g dl\n", o->drift);
     printf("friction_share      %.6g of dissipated\n",
-           1 - (s->penalty_dissipated + s->wall_dissipated + s->diffusion_dissipated + s->bulk_dissipated +
-                s->collision_dissipated) /
+           1 - (s->penalty_dissipated + s->wall_dissipated + s->diffusion_dissipated + s->spacing_dissipated +
+                s->bulk_dissipated + s->collision_dissipated) /
                    s->dissipated);
     printf("penalty_share       %.6g of dissipated\n", s->penalty_dissipated / s->dissipated);
     printf("wall_share          %.6g of dissipated\n", s->wall_dissipated / s->dissipated);
     printf("diffusion_share     %.6g of dissipated\n", s->diffusion_dissipated / s->dissipated);
+    printf("spacing_share       %.6g of dissipated\n", s->spacing_dissipated / s->dissipated);
     printf("bulk_share          %.6g of dissipated\n", s->bulk_dissipated / s->dissipated);
     printf("collision_share     %.6g of dissipated\n", s->collision_dissipated / s->dissipated);
     printf("implicit_newton     %lld\n", (long long)s->implicit_newton);

@@ -350,10 +350,25 @@ gp_status gp_get_state(gp_sim *sim, gp_state *state) {
     });
 }
 
+gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step) {
+    return guard([&] {
+        require_simulation(sim);
+        const Clock clock = sim->sim.clock();
+        if (time)
+            *time = clock.time;
+        if (dt)
+            *dt = clock.step > 0 ? clock.dt : 0.0;
+        if (step)
+            *step = clock.step;
+        return GP_OK;
+    });
+}
+
 gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height) {
     return guard([&] {
         require_stations(n, "x", x, "height", height);
-        const Surface surface(readable(sim).world());
+        const World &world = readable(sim).world();
+        const Surface surface(world, connected_deposit(world));
         for (int64_t k = 0; k < n; ++k)
             if (!surface.height(x[k], height[k]))
                 height[k] = 0;

@@ -115,22 +115,29 @@ Box box_of(const Particles &p, int64_t first, int64_t last, double margin) {
     return {box.x_min - margin, box.x_max + margin, box.y_min - margin, box.y_max + margin};
 }
 
-bool separated(const std::vector<Segment> &barriers, const Vector &a, const Vector &b, double tolerance) {
-    for (const Segment &barrier : barriers)
-        if (crossing(barrier, a, b, tolerance) >= 0 || crossing(barrier, b, a, tolerance) >= 0)
-            return true;
-    return false;
+bool separated(const Barriers &barriers, const SegmentCells::Run &about, const Vector &a, const Vector &b,
+               double tolerance) {
+    return std::any_of(about.begin(), about.end(), [&](int32_t k) {
+        const Segment &barrier = barriers.segments[k];
+        return crossing(barrier, a, b, tolerance) >= 0 || crossing(barrier, b, a, tolerance) >= 0;
+    });
 }
 
 // Which lanes see what of a row; true if not all see all.
-bool look_through(const Particles &p, const std::vector<Segment> &barriers, double tolerance, int64_t cluster,
-                  ClusterList &list) {
-    bool partly = false;
+bool look_through(const Particles &p, const Barriers &barriers, double tolerance, int64_t cluster, ClusterList &list) {
+    SegmentCells::Run about[lane_count];
+    bool any = false, partly = false;
+    for (int32_t i = list.first[cluster], l = 0; i < list.first[cluster + 1]; ++i, ++l) {
+        about[l] = barriers.cells.about(p.x[i], p.y[i]);
+        any |= !about[l].empty();
+    }
+    if (!any)
+        return false;
     for (int64_t k = list.start[cluster]; k < list.stop[cluster]; ++k) {
         const int32_t j = list.index[k];
         unsigned lanes = 0;
         for (int32_t i = list.first[cluster], l = 0; i < list.first[cluster + 1]; ++i, ++l)
-            if (i == j || !separated(barriers, {p.x[i], p.y[i]}, {p.x[j], p.y[j]}, tolerance))
+            if (i == j || !separated(barriers, about[l], {p.x[i], p.y[i]}, {p.x[j], p.y[j]}, tolerance))
                 lanes |= 1u << l;
             else
                 partly = true;
@@ -142,7 +149,7 @@ bool look_through(const Particles &p, const std::vector<Segment> &barriers, doub
 } // namespace
 
 void find_clusters(const Particles &p, const CellGrid &grid, const Images &images, double radius, double close_radius,
-                   const std::vector<Segment> &barriers, double tolerance, int threads, ClusterList &list) {
+                   const Barriers &barriers, double tolerance, int threads, ClusterList &list) {
     cut(p, grid, radius, threads, list);
     const int64_t count = static_cast<int64_t>(list.first.size()) - 1;
     const double radius2 = radius * radius, close2 = close_radius * close_radius;
@@ -162,7 +169,7 @@ void find_clusters(const Particles &p, const CellGrid &grid, const Images &image
     std::partial_sum(list.start.begin(), list.start.end(), list.start.begin());
     if (static_cast<int64_t>(list.index.size()) < list.start[count])
         list.index.resize(list.start[count] + list.start[count] / 8); // so that later lists of about this size fit
-    if (barriers.empty()) {
+    if (barriers.segments.empty()) {
         list.partly_seen.clear();
     } else {
         list.partly_seen.resize(count);
@@ -201,7 +208,7 @@ void find_clusters(const Particles &p, const CellGrid &grid, const Images &image
             list.stop[c] = list.close_stop[c] + (row_end - row.others);
             if (row.close < row.others) // not where the row is full, or nothing at all
                 std::copy(row.others, row_end, row.close);
-            if (!barriers.empty())
+            if (!barriers.segments.empty())
                 list.partly_seen[c] = look_through(p, barriers, tolerance, c, list);
         }
     });

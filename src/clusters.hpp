@@ -10,6 +10,7 @@
 
 #include "geometry.hpp"
 #include "neighbors.hpp"
+#include "segment_cells.hpp"
 
 namespace gp {
 
@@ -30,12 +31,17 @@ struct ClusterList {
     int64_t bytes() const;
 };
 
+// Plates with material behind them: pairs of particles do not see each other through these.
+struct Barriers {
+    std::vector<Segment> segments;
+    SegmentCells cells; // of those within the radius of the lists
+};
+
 // Cuts the sorted particles into clusters and finds, for each, the neighbours within `radius` of one of its particles; those
-// within `close_radius` of one come first. Pairs on both sides of one of `barriers` (plates with material behind them) do
-// not see each other.
+// within `close_radius` of one come first. Pairs on both sides of one of `barriers` do not
+// see each other.
 void find_clusters(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                   double close_radius, const std::vector<Segment> &barriers, double tolerance, int threads,
-                   ClusterList &list);
+                   double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list);
 
 // Calls found(j) for the particles and images in the list of particle i's cluster that i sees: all within the radius, and
 // some that are not.

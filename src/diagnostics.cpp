@@ -5,30 +5,9 @@
 
 #include "ledger.hpp"
 #include "stages/stages.hpp"
+#include "volume_drift.hpp"
 
 namespace gp {
-
-namespace {
-
-// At rest: gp_state.at_rest in gp.h defines it with these numbers.
-constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_unbalanced = 0.01;
-// Grains at the tips may tremble for ever, kicked to and fro within a step. Below 200 particles two are more than 1 %.
-constexpr double trembling_particles = 2, rest_unbalanced_few = 0.05;
-
-double unbalanced_share_at_rest(int64_t particles) {
-    return std::max(rest_unbalanced, std::min(trembling_particles / static_cast<double>(particles), rest_unbalanced_few));
-}
-
-bool is_at_rest(const World &world, const Energies &e) {
-    const double scale = std::max(world.ledger.initial, world.ledger.largest_kinetic);
-    const Constants &c = world.constants;
-    if (world.clock.step == 0)
-        return e.kinetic == 0 && c.gravity.norm() == 0;
-    return e.kinetic <= rest_kinetic * scale && world.plastic_power * c.time_scale <= rest_plastic * scale &&
-           world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
-}
-
-} // namespace
 
 gp_state measure_state(const World &world) {
     const Particles &p = world.particles;
@@ -54,6 +33,7 @@ gp_state measure_state(const World &world) {
     s.penalty_dissipated = world.ledger.penalty;
     s.wall_dissipated = world.ledger.walls;
     s.diffusion_dissipated = world.ledger.diffusion;
+    s.spacing_dissipated = world.ledger.spacing;
     s.bulk_dissipated = world.ledger.bulk;
     s.collision_dissipated = world.ledger.collisions;
     s.channel_dissipated = world.ledger.side_walls;
@@ -77,13 +57,26 @@ gp_state measure_state(const World &world) {
     s.max_speed = std::sqrt(s.max_speed);
     s.rms_speed = p.count > 0 ? std::sqrt(speed2 / static_cast<double>(p.count)) : 0.0;
 
-    const Surface surface(world);
+    const std::vector<char> connected = connected_deposit(world);
+    const Surface surface(world, connected);
     if (!surface.empty()) {
         s.x_left = surface.left();
         s.x_right = surface.right();
         surface.peak(s.peak_x, s.peak_height);
     }
-    s.at_rest = is_at_rest(world, e) ? 1 : 0;
+    const MassMarks marks = measure_mass(world, connected);
+    s.x_q01 = marks.quantile[0];
+    s.x_q05 = marks.quantile[1];
+    s.x_q25 = marks.quantile[2];
+    s.x_q50 = marks.quantile[3];
+    s.x_q75 = marks.quantile[4];
+    s.x_q95 = marks.quantile[5];
+    s.x_q99 = marks.quantile[6];
+    s.centre_x = marks.x;
+    s.centre_y = marks.y;
+    s.detached = marks.detached;
+    s.volume_drift = drift_of(world, measure_packing(world, Part::flowing));
+    s.at_rest = is_at_rest(world, e.kinetic) ? 1 : 0;
     s.collisions = world.collisions;
     s.sound_speed = world.constants.sound_speed;
     return s;

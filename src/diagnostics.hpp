@@ -17,26 +17,48 @@ gp_state measure_state(const World &world);
 std::vector<char> connected_deposit(const World &world);
 
 // Free surface of the connected deposit at stations x between its fronts: the largest y where the smoothed volume fraction
-// is 1/2, or half of the largest one at x where the material nowhere fills the smoothing radius (beside walls, at fronts).
+// is 1/2, or half of the largest one at x where the material nowhere fills the smoothing radius (at fronts). Beside plates
+// the deposit counts as mirrored, and what is behind one is not seen.
 class Surface {
 public:
-    explicit Surface(const World &world);
+    Surface(const World &world, const std::vector<char> &connected);
     bool empty() const { return points_.empty(); }
     // false where there is no material at x.
     bool height(double x, double &y) const;
     double left() const; // m, fronts with half a spacing added
     double right() const;
-    // Highest point of the surface.
+    // Highest point of the surface, with what the smoothing takes off a cusp.
     void peak(double &x, double &y) const;
 
 private:
+    class Strip;
     struct Point {
         double x, y;
+        int32_t wall; // in walls_, that mirrored it; -1: a particle
     };
-    double spacing_, radius_;
+    void add_mirrored(const Walls &walls, int64_t place, const Vector &at, std::vector<int32_t> &wall_of);
+    bool height(double x, double radius, double &y, bool &full) const;
+    bool is_filled(double x, double y, double radius) const; // half or more of the radius
+    std::vector<double> stations_near_top() const;
+
+    double spacing_;
     double x_min_ = -INFINITY, x_max_ = INFINITY; // ends of the period
+    double left_ = INFINITY, right_ = -INFINITY;  // of the particles
     std::vector<Point> points_;                   // sorted by x
+    std::vector<Segment> walls_;                  // that mirror some
 };
+
+// Where the mass lies.
+struct MassMarks {
+    double quantile[7]; // m: the share of mass_shares lies to the left
+    double x, y;        // m, centre of mass
+    double detached;    // share outside of the connected deposit
+};
+constexpr double mass_shares[7] = {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
+MassMarks measure_mass(const World &world, const std::vector<char> &connected);
+
+// Has the material come to rest, and what moves it? gp_state.at_rest in gp.h says what that means.
+bool is_at_rest(const World &world, double kinetic);
 
 // Interface of two bodies at height y; false where they do not touch.
 bool interface_at(const World &world, int32_t left, int32_t right, double y, double &x);

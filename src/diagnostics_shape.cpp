@@ -1,18 +1,15 @@
-// The shape of the deposit: what is connected, its surface, the interface of two bodies.
+// The shape of the material: what is connected, the interface of two bodies.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "diagnostics.hpp"
-#include "kernel.hpp"
 
 namespace gp {
 
 namespace {
 
-constexpr double link_distance = 1.6;    // dl: a little more than the diagonal of the lattice
-constexpr double smoothing_radius = 2.0; // dl: a straight row of particles still reaches a volume fraction of 1/2
-const double pi = std::acos(-1.0);
+constexpr double link_distance = 1.6; // dl: a little more than the diagonal of the lattice
 
 int32_t root_of(std::vector<int32_t> &parent, int32_t i) {
     while (parent[i] != i)
@@ -54,92 +51,6 @@ std::vector<char> connected_deposit(const World &world) {
     for (int32_t i = 0; i < p.count; ++i)
         connected[i] = root_of(parent, i) == largest;
     return connected;
-}
-
-Surface::Surface(const World &world)
-    : spacing_(world.constants.spacing), radius_(smoothing_radius * world.constants.spacing) {
-    if (const Period &period = world.constants.period) {
-        x_min_ = period.x_min;
-        x_max_ = period.x_min + period.length;
-    }
-    const std::vector<char> connected = connected_deposit(world);
-    const Particles &p = world.particles;
-    for (int64_t i = 0; i < p.count + world.images.count; ++i)
-        if (connected[world.images.source(i)])
-            points_.push_back({p.x[i], p.y[i]});
-    std::sort(points_.begin(), points_.end(),
-              [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-}
-
-double Surface::left() const {
-    return std::max(x_min_, points_.front().x - 0.5 * spacing_);
-}
-
-double Surface::right() const {
-    return std::min(x_max_, points_.back().x + 0.5 * spacing_);
-}
-
-bool Surface::height(double x, double &y) const {
-    if (points_.empty() || x < left() || x > right())
-        return false;
-    const auto before = [](const Point &a, double value) { return a.x < value; };
-    const auto first = std::lower_bound(points_.begin(), points_.end(), x - radius_, before);
-    const auto last = std::lower_bound(first, points_.end(), x + radius_, before);
-    if (first == last)
-        return false;
-    std::vector<Point> strip(first, last);
-    std::sort(strip.begin(), strip.end(), [](const Point &a, const Point &b) { return a.y > b.y; });
-    // Volume fraction at (x, at): V sum of the weight over its integral pi R^2 / 10.
-    const double scale = spacing_ * spacing_ * 10 / (pi * radius_ * radius_);
-    const auto fraction = [&](double at) {
-        auto k = std::lower_bound(strip.begin(), strip.end(), at + radius_,
-                                  [](const Point &a, double value) { return a.y > value; });
-        double sum = 0;
-        for (; k != strip.end() && k->y > at - radius_; ++k)
-            sum += weight(std::hypot(k->x - x, k->y - at), 1.0 / radius_);
-        return scale * sum;
-    };
-    // Beside a wall or at a front the material nowhere fills the radius: what counts is half of what it reaches.
-    double fullest = 0;
-    for (auto k = strip.begin(); k != strip.end() && fullest < 0.9; ++k)
-        fullest = std::max(fullest, fraction(k->y));
-    const double half = fullest < 0.9 ? 0.5 * fullest : 0.5;
-    // Down from above each particle in turn, by steps from outside to inside; then bisection.
-    constexpr int steps = 8;
-    for (const Point &point : strip)
-        for (int k = 1; k <= steps; ++k) {
-            double outside = point.y + radius_ * (steps - k + 1) / steps,
-                   inside = point.y + radius_ * (steps - k) / steps;
-            if (fraction(inside) < half)
-                continue;
-            for (int halving = 0; halving < 40; ++halving) {
-                const double middle = 0.5 * (inside + outside);
-                (fraction(middle) >= half ? inside : outside) = middle;
-            }
-            y = inside;
-            return true;
-        }
-    return false;
-}
-
-void Surface::peak(double &x, double &y) const {
-    double top = -INFINITY;
-    for (const Point &point : points_)
-        top = std::max(top, point.y);
-    y = -INFINITY;
-    // The highest point of the surface lies within half a spacing of a particle near the top.
-    for (const Point &point : points_) {
-        if (point.y < top - spacing_)
-            continue;
-        for (double shift : {-0.5, 0.0, 0.5}) {
-            double height;
-            const double at = point.x + shift * spacing_;
-            if (this->height(at, height) && height > y) {
-                x = at;
-                y = height;
-            }
-        }
-    }
 }
 
 bool interface_at(const World &world, int32_t left, int32_t right, double y, double &x) {

@@ -34,12 +34,14 @@ struct Segment {
         return other;
     }
 
-    // Distance of a point from the segment.
-    double nearest(const Vector &point) const {
-        const double s = along(point);
-        const double beyond = s < 0 ? -s : (s > length ? s - length : 0.0);
-        return std::hypot(beyond, distance(point));
+    // Distance of a point from the segment, and its square.
+    double nearest(const Vector &point) const { return std::hypot(beyond(along(point)), distance(point)); }
+    double nearest_square(const Vector &point) const {
+        const double past = beyond(along(point)), off = distance(point);
+        return past * past + off * off;
     }
+    // How far `along` is past an end.
+    double beyond(double s) const { return s < 0 ? -s : (s > length ? s - length : 0.0); }
 };
 
 // Periodicity in x.
@@ -56,14 +58,18 @@ struct Period {
 // Where the way from a point on the wetted side to one on the body side passes the segment's line, as a fraction of the
 // way in [0, 1); negative if it does not pass through the segment in that sense. Both ends belong to the segment: which one
 // a plate was drawn from must not matter, nor rounding. A way through the corner of two plates passes through both.
-inline double crossing(const Segment &segment, const Vector &from, const Vector &to, double tolerance) {
+// before, after: tolerances at end 0 and end 1.
+inline double crossing(const Segment &segment, const Vector &from, const Vector &to, double before, double after) {
     const double d_from = segment.distance(from), d_to = segment.distance(to);
     if (d_from <= 0 || d_to > 0)
         return -1.0;
     const double fraction = d_from / (d_from - d_to);
     const double s_from = segment.along(from);
     const double s = s_from + fraction * (segment.along(to) - s_from);
-    return s >= -tolerance && s <= segment.length + tolerance ? fraction : -1.0;
+    return s >= -before && s <= segment.length + after ? fraction : -1.0;
+}
+inline double crossing(const Segment &segment, const Vector &from, const Vector &to, double tolerance) {
+    return crossing(segment, from, to, tolerance, tolerance);
 }
 
 } // namespace gp

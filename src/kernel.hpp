@@ -2,6 +2,8 @@
 // full square lattice of particles.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "parallel.hpp"
@@ -37,6 +39,38 @@ inline LatticeSums lattice_sums(double radius, double spacing) {
         }
     return sums;
 }
+
+// Neighbours that fill a half plane up to the distance y on one side: their fitted slope is that of a curved profile not here but
+// further inside, by m3 / (2 m2) with the moments m_k = sum w y_j^k of the ways to them. Over the radius, of y over the radius:
+// y / (y + m3 / m2), 0 at the edge, 1 from a radius on.
+class OneSidedSlope {
+public:
+    OneSidedSlope() {
+        double second = 0, third = 0; // from the far side to -y
+        int next = 0;
+        for (int k = 2 * steps; k-- > 0;) {
+            const double t = (k + 0.5) / steps - 1, chord = std::sqrt(1 - t * t);
+            double across = 0;
+            for (int i = 0; i < steps; ++i)
+                across += weight(std::hypot(t, chord * (i + 0.5) / steps), 1.0) * chord;
+            second += across * t * t;
+            third += across * t * t * t;
+            if (k == steps - next * (steps / samples)) { // t - half a step = -y
+                const double y = static_cast<double>(next) / samples;
+                share_[next++] = y / (y + third / second);
+            }
+        }
+    }
+    double share(double y) const {
+        const double at = std::clamp(y, 0.0, 1.0) * samples;
+        const int k = std::min(static_cast<int>(at), samples - 1);
+        return share_[k] + (at - k) * (share_[k + 1] - share_[k]);
+    }
+
+private:
+    static constexpr int samples = 32, steps = 128;
+    std::array<double, samples + 1> share_{};
+};
 
 // The operators on a plane wave exp(i k.r) of the lattice, all without dimension (k0, N0 as above, sums over neighbours).
 struct Wave {

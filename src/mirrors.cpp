@@ -4,18 +4,6 @@
 
 namespace gp {
 
-namespace {
-
-// Index of particle i's contact with a plate, -1 if there is none.
-int64_t contact_of(const Walls &walls, int64_t i, int32_t plate) {
-    for (int32_t c = walls.contact_start[i]; c < walls.contact_start[i + 1]; ++c)
-        if (walls.contacts[c].plate == plate)
-            return c;
-    return -1;
-}
-
-} // namespace
-
 void Mirrors::find(const Walls &walls, const Particles &particles, const CellGrid &grid, const Images &images,
                    double radius) {
     of_ghost.start.resize(walls.ghost_count + 1);
@@ -24,12 +12,11 @@ void Mirrors::find(const Walls &walls, const Particles &particles, const CellGri
     const int64_t contacts = static_cast<int64_t>(walls.contacts.size());
     contact_start.assign(contacts + 1, 0);
     for (int64_t g = 0; g < walls.ghost_count; ++g) {
-        const int32_t plate = walls.ghost_plate[g];
         const Vector mirror = Vector(walls.ghost_x[g], walls.ghost_y[g]) +
-                              2 * walls.ghost_depth[g] * walls.plates[plate].segment().normal;
+                              2 * walls.ghost_distance[g] * Vector(walls.ghost_nx[g], walls.ghost_ny[g]);
         for_each_candidate(grid, images, mirror.x(), mirror.y(), radius, [&](int64_t i) {
             const double dx = particles.x[i] - mirror.x(), dy = particles.y[i] - mirror.y();
-            if (dx * dx + dy * dy < radius * radius && contact_of(walls, images.source(i), plate) >= 0)
+            if (dx * dx + dy * dy < radius * radius && walls.contact_of(images.source(i), g) >= 0)
                 of_ghost.index.push_back(static_cast<int32_t>(i));
         });
         if (static_cast<int64_t>(of_ghost.index.size()) == of_ghost.start[g]) {
@@ -40,12 +27,19 @@ void Mirrors::find(const Walls &walls, const Particles &particles, const CellGri
         of_ghost.start[g + 1] = static_cast<int64_t>(of_ghost.index.size());
     }
 
+    plate_of_entry.resize(walls.particles_of_ghost.index.size());
+    for (int64_t g = 0; g < walls.ghost_count; ++g)
+        for (int64_t k = walls.particles_of_ghost.start[g]; k < walls.particles_of_ghost.start[g + 1]; ++k) {
+            const int64_t c = walls.contact_of(images.source(walls.particles_of_ghost.index[k]), g);
+            plate_of_entry[k] = c < 0 ? walls.ghost_plate[g] : walls.contacts[c].listed_plate;
+        }
+
     // The same by contact. Those of images belong to the contacts of other particles.
     const auto for_each_entry = [&](const auto &found) {
         for (int64_t g = 0; g < walls.ghost_count; ++g)
             for (int64_t k = of_ghost.start[g]; k < of_ghost.start[g + 1]; ++k)
                 if (of_ghost.index[k] < particles.count)
-                    found(contact_of(walls, of_ghost.index[k], walls.ghost_plate[g]), g, k);
+                    found(walls.contact_of(of_ghost.index[k], g), g, k);
     };
     for_each_entry([&](int64_t c, int64_t, int64_t) { ++contact_start[c + 1]; });
     std::partial_sum(contact_start.begin(), contact_start.end(), contact_start.begin());

@@ -13,12 +13,14 @@
 
 namespace gp {
 
-// K and M = sum w (u_j - u_i) (x) r, so that L = M K^-1.
+// K and M = sum w (u_j - u_i) (x) r, so that L = M K^-1; and N = sum w, where it is asked for.
 struct Moments {
+    double n = 0;
     double kxx = 0, kxy = 0, kyy = 0;
     double mxx = 0, mxy = 0, myx = 0, myy = 0;
 
     GP_INLINE Moments &operator+=(const Moments &other) {
+        n += other.n;
         kxx += other.kxx;
         kxy += other.kxy;
         kyy += other.kyy;
@@ -34,14 +36,15 @@ struct Moments {
 GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t n, double xi, double yi, double ui,
                            double vi, const double *__restrict x, const double *__restrict y,
                            const double *__restrict vx, const double *__restrict vy, double inverse_radius) {
-    double kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
-#pragma omp simd reduction(+ : kxx, kxy, kyy, mxx, mxy, myx, myy)
+    double all = 0, kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
+#pragma omp simd reduction(+ : all, kxx, kxy, kyy, mxx, mxy, myx, myy)
     for (int64_t k = 0; k < n; ++k) {
         const int32_t j = row[k];
         const double dx = x[j] - xi, dy = y[j] - yi;
         const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
         const double wx = w * dx, wy = w * dy;
         const double du = vx[j] - ui, dv = vy[j] - vi;
+        all += w;
         kxx += wx * dx;
         kxy += wx * dy;
         kyy += wy * dy;
@@ -50,6 +53,7 @@ GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t 
         myx += dv * wx;
         myy += dv * wy;
     }
+    sum.n += all;
     sum.kxx += kxx;
     sum.kxy += kxy;
     sum.kyy += kyy;

@@ -23,8 +23,10 @@ void Particles::allocate(int64_t n, const Optional &use) {
         carried.resize(size, 1.0);
     if (use.flowing) {
         flowing.resize(size);
-        bearing.resize(size);
+        crowding.resize(size);
     }
+    if (use.bearing)
+        bearing.resize(size);
     scratch_int64_.resize(size);
     scratch_int32_.resize(size);
 }

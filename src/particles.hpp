@@ -41,17 +41,21 @@ struct Particles {
     Field<double> lxx, lxy, lyx, lyy; // 1/s, velocity gradient L_ab = du_a/dr_b
     Field<double> gxx, gxy, gyy;      // 1/m2, inverse shape tensor K^-1
     Field<double> cxx, cxy, cyx, cyy; // sigma K^-1, less the penalty's half of L: what a neighbour needs of a particle
-    Field<double> stressed;           // 1 where p > 0 and the penalty acts, else 0; only with the penalty
+    Field<double> stressed;           // share of the penalty: where p > 0, more inside the yield surface; only with it
     Field<double> carried;            // share of its stress that a particle near a plate carries; only with plates
-    Field<double> flowing, bearing;   // 1 at yield or without stress; 1 under pressure; only with density diffusion
+    Field<double> flowing;            // 1 at yield or without stress, else 0; only where the density is integrated
+    Field<double> crowding;           // sum of w where it flows, plates included, else 0; only with that
+    Field<double> bearing;            // 1 under pressure, else 0; only with density diffusion
     Field<double> ax, ay;             // m/s2, by the forces
     Field<double> push_x, push_y;     // m/s, by collisions and contacts with plates after that
 
     // Fields that only some scenes need.
     struct Optional {
-        bool stressed, flowing; // penalty, density diffusion
-        bool carried;           // plates, but by number density
-        bool shape;             // inverse shape tensor and the second row of sigma K^-1
+        bool stressed; // penalty
+        bool flowing;  // density by continuity
+        bool bearing;  // density diffusion
+        bool carried;  // plates, but by number density
+        bool shape;    // inverse shape tensor and the second row of sigma K^-1
         bool syy;
     };
     // Gives every field in use its size.

@@ -14,8 +14,9 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
     t.particles = scene.particle_count() > 0;
     t.periodic = static_cast<bool>(scene.period());
     t.plates = !scene.plates().empty();
-    t.coulomb_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [](const PlateSpec &plate) {
-        return plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0;
+    t.friction_plates = std::any_of(scene.plates().begin(), scene.plates().end(), [&](const PlateSpec &plate) {
+        return (plate.friction == GP_WALL_COULOMB && plate.wall_mu > 0) ||
+               (plate.friction == GP_WALL_NO_SLIP && constants.scheme == Scheme::adjoint);
     });
     t.channel = scene.config().channel_width > 0;
     t.side_walls = scene.config().channel_width > 0 && scene.config().channel_friction > 0;
@@ -58,14 +59,20 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads velocity; writes ghost velocity
         {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_velocity, in_reach, none_near},
-        // reads position, velocity; writes shape tensor, velocity gradient; with density diffusion also reads density and
-        // stress, and writes what is exchanged: one loop over pairs for both
+        // reads pressure, stress; writes which particles flow
+        {"flowing", t.particles, "densities are tied to each other and to the spacing where it flows", no_particles,
+         stages::flowing, nullptr, ""},
+        // reads position, velocity; writes shape tensor, velocity gradient and, where it flows, number density; with density
+        // diffusion also reads density, and writes what is exchanged: one loop over pairs for all
         {"gradient", t.particles, t.diffusion ? "particles interact; with the pair sums of density_diffusion"
                                               : "particles interact",
          no_particles, t.diffusion ? stages::gradient_and_exchange : stages::gradient, nullptr, ""},
         // reads what is exchanged; writes density
         {"density_diffusion", t.particles && t.diffusion, "density_diffusion > 0", "density_diffusion is 0",
          stages::density_diffusion, nullptr, ""},
+        // reads number density, velocity gradient; writes density
+        {"density_of_spacing", t.particles, "what flows keeps its volume", no_particles, stages::density_of_spacing,
+         nullptr, ""},
         // reads velocity gradient; writes density, pressure
         {"density", t.particles, "density by continuity", no_particles, stages::density, nullptr, ""},
         // reads velocity gradient, pressure; writes stress, sigma K^-1
@@ -79,7 +86,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads acceleration; writes velocity, position
         {"integrate", t.particles, "particles move", no_particles, stages::integrate, nullptr, ""},
         // reads contact forces; writes velocity, position
-        {"wall_friction", walls && t.coulomb_plates, "a plate has Coulomb friction", "no plate has Coulomb friction",
+        {"wall_friction", walls && t.friction_plates, "a plate has friction", "no plate has friction",
          stages::wall_friction, in_reach, none_near},
         // reads pressure; writes velocity, position
         {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",
@@ -196,9 +203,11 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         field_entry("stressed", t.penalty,
                     t.penalty ? "the zero-energy penalty acts on stressed material" : "zero_energy_penalty is 0",
                     bytes_of(p.stressed)));
-    entries.push_back(field_entry("flowing", t.diffusion,
-                                  t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0",
-                                  bytes_of_all(p.flowing, p.bearing)));
+    const char *by_number = "the density is that of the positions";
+    optional("flowing", !viscous, "densities are tied where it flows", by_number, bytes_of(p.flowing));
+    optional("crowding", !viscous, "what flows keeps its volume", by_number, bytes_of(p.crowding));
+    entries.push_back(field_entry(
+        "bearing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0", bytes_of(p.bearing)));
     const bool flights = t.plates && !by_number_density(t.scheme);
     entries.push_back(field_entry("carried", flights,
                                   flights     ? "grains in flight above a plate carry no stress"

@@ -16,8 +16,10 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         rows.same("update_neighbors"),
         rows.same("keep_fields"),
         rows.other("wall_velocity", stages::wall_volume_velocity),
+        rows.same("flowing"),
         rows.same("gradient"),
         rows.same("density_diffusion"),
+        rows.same("density_of_spacing"),
         rows.same("density"),
         // reads velocity gradient, pressure; writes -p K^-1
         rows.particles("pressure_over_shape", "force states of the pressure", stages::pressure_over_shape),
@@ -33,7 +35,6 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
         support,
         // reads velocity, pressure; writes velocity, position, stress
         rows.particles("viscous_solve", "regularised mu(I) law, implicit", stages::viscous_solve),
-        rows.same("wall_friction"),
         rows.same("side_wall_friction"),
         rows.same("collide"),
         rows.other("wall_contact", stages::wall_hold),

@@ -85,6 +85,7 @@ struct Constants {
     double reach;                    // m, of the neighbour and ghost lists: the largest radius that the scheme uses
     LatticeSums lattice;             // for the horizon
     LatticeSums interaction_lattice; // for the interaction radius
+    OneSidedSlope one_sided;         // of the weight
     double sound_speed;              // c0, m/s
     double flow_speed;               // m/s, the largest that the scene can reach, which the sound speed is based on
     bool sound_speed_is_arbitrary;   // nothing in the scene sets a speed
@@ -96,8 +97,13 @@ struct Constants {
     double viscous_step;             // s, largest step that is stable for the coefficients that damp
     double contrast_step;            // s, largest step that is stable where materials of different density meet
     double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
+    double elastic_penalty;          // the same inside the yield surface, over that
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
+};
+
+struct InitialStress {
+    double pressure = 0, sxx = 0, sxy = 0; // Pa
 };
 
 class Scene {
@@ -127,8 +133,8 @@ public:
     int64_t particle_count() const { return static_cast<int64_t>(x.size()); }
 
     Constants constants() const;
-    // Initial pressure of every particle, Pa (gp_column.initial_pressure).
-    std::vector<double> initial_pressure(const Constants &constants) const;
+    // With which every particle begins (gp_column.initial_pressure).
+    std::vector<InitialStress> initial_stress(const Constants &constants) const;
 
     // Initial positions and velocities, in the order of id.
     std::vector<double> x, y, vx, vy;

@@ -10,6 +10,7 @@
 #include "ledger.hpp"
 #include "stages/stages.hpp"
 #include "undo.hpp"
+#include "volume_drift.hpp"
 
 namespace gp {
 
@@ -250,6 +251,11 @@ void Sim::prepare() {
     for (int64_t i = 0; i < world->particles.count; ++i)
         world->max_compression =
             std::max(world->max_compression, world->particles.density[i] / world->material_of(i).density - 1);
+
+    const Packing packing = measure_packing(*world, Part::all);
+    world->packing_at_start = packing.particles > 0
+                                  ? packing.number_density
+                                  : packing_of_lattice(world->constants.horizon, world->constants.spacing);
 
     set_world(std::move(world));
 }

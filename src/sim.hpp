@@ -59,6 +59,8 @@ public:
     void set_plate_start(int32_t plate, const Vector &start) { scene_.set_plate_start(plate, start); }
     const Scene &scene() const { return scene_; }
     const World &world() const { return *world_; }
+    // Without preparing anything.
+    Clock clock() const { return world_ ? world_->clock : Clock{}; }
     std::vector<gp_plan_entry> plan() const { return describe_plan(stages_, traits_, *world_); }
 
     uint64_t epoch() const { return epoch_; }

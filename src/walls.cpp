@@ -5,82 +5,9 @@
 #include <numeric>
 
 #include "parallel.hpp"
+#include "sight.hpp"
 
 namespace gp {
-
-Vector Plate::prescribed_displacement(double time) const {
-    if (driven_)
-        return driven_from_ + (time - driven_since_) * driven_velocity_;
-    if (!spec_->table.empty())
-        return spec_->table.displacement(time);
-    return spec_->start + time * spec_->velocity;
-}
-
-Vector Plate::displacement(double time) const {
-    return prescribed_displacement(time) + fallen_ * spec_->segment.normal;
-}
-
-void Plate::fall(double dt, double default_mass) {
-    const Segment &s = spec_->segment;
-    const double mass = s.length * (spec_->mass > 0 ? spec_->mass : default_mass); // kg/m
-    const double change = dt * (spec_->load * s.length + s.normal.dot(force)) / mass;
-    fall_speed_ += change;
-    fallen_ += dt * fall_speed_;
-    velocity_ += change * s.normal;
-}
-
-void Plate::drive(double time, const Vector &velocity) {
-    driven_from_ = prescribed_displacement(time);
-    driven_since_ = time;
-    driven_velocity_ = velocity;
-    driven_ = true;
-    velocity_ = velocity + fall_speed_ * spec_->segment.normal; // the next step's size goes by it
-}
-
-bool Plate::moves_after(double time) const {
-    if (loaded())
-        return true;
-    if (driven_)
-        return driven_velocity_ != Vector::Zero();
-    if (!spec_->table.empty())
-        return time < spec_->table.last_time();
-    return spec_->velocity != Vector::Zero();
-}
-
-void Plate::wrap(const Period &period, double time) {
-    const Segment &s = spec_->segment;
-    wrapped_ = period.shift_of(s.origin.x() + 0.5 * s.length * s.tangent.x() + displacement(time).x());
-}
-
-void Plate::place(double time, double dt) {
-    placed_ = spec_->segment.moved(displacement(time) - Vector(wrapped_, 0));
-    if (driven_)
-        velocity_ = driven_velocity_;
-    else if (spec_->table.empty())
-        velocity_ = spec_->velocity;
-    else if (dt > 0)
-        velocity_ = (spec_->table.displacement(time + dt) - spec_->table.displacement(time)) / dt;
-    else // placed anew between steps, before the first one: as it was
-        return;
-    velocity_ += fall_speed_ * spec_->segment.normal;
-}
-
-Plate::Motion Plate::motion() const {
-    return {driven_,     driven_since_, driven_from_,   driven_velocity_, fallen_,
-            fall_speed_, wrapped_,      placed_.origin, velocity_};
-}
-
-void Plate::set_motion(const Motion &motion) {
-    driven_ = motion.driven;
-    driven_since_ = motion.driven_since;
-    driven_from_ = motion.driven_from;
-    driven_velocity_ = motion.driven_velocity;
-    fallen_ = motion.fallen;
-    fall_speed_ = motion.fall_speed;
-    wrapped_ = motion.wrapped;
-    placed_.origin = motion.origin;
-    velocity_ = motion.velocity;
-}
 
 int64_t Walls::count_overlapping(const Particles &particles, double margin) const {
     int64_t found = 0;
@@ -96,25 +23,19 @@ int64_t Walls::count_overlapping(const Particles &particles, double margin) cons
 }
 
 int64_t Walls::bytes() const {
-    int64_t total = particles_of_ghost.bytes();
-    for (const Field<double> *field : {&ghost_along, &ghost_depth, &ghost_shift, &ghost_x, &ghost_y, &ghost_vx,
-                                       &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
+    int64_t total = particles_of_ghost.bytes() + chains_.bytes() + cells_.bytes();
+    for (const Field<double> *field : {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_distance, &ghost_shift,
+                                       &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         total += static_cast<int64_t>(field->capacity() * sizeof(double));
-    for (const Field<int32_t> *field : {&ghost_plate, &wall_particle, &ghost_of_contact, &contact_start, &fill_})
+    for (const Field<int32_t> *field : {&ghost_plate, &ghost_chain, &wall_particle, &ghost_of_contact, &contact_start,
+                                        &fill_, &seeing_, &passed_, &about_, &passed_of_contact_})
         total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
     return total +
            static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
-                                nearby_.capacity() * sizeof(Nearby));
+                                places_.capacity() * sizeof(WallPlace) + images_.capacity() * sizeof(PlateImage));
 }
 
 namespace {
-
-// Two plates passed at fractions of the way that differ by less are passed at their common corner: twice the tolerance of
-// crossing(), 1e-9 dl, over ways of at least half a spacing.
-constexpr double corner = 1e-8;
-
-// A particle this close behind the line still counts as in front of it: the contact stage is about to push it back.
-constexpr double penetration_allowed = 0.25; // dl
 
 Box box_around(const Segment &s, double margin) {
     const Vector end = s.origin + s.length * s.tangent;
@@ -126,30 +47,30 @@ Box box_around(const Segment &s, double margin) {
 
 // A plate, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long
 // segment, that begins a period before its end 0.
-const std::vector<Walls::Nearby> &Walls::images_of_plates() {
-    std::vector<Nearby> &all = images_;
+const std::vector<PlateImage> &Walls::images_of_plates() {
+    std::vector<PlateImage> &all = images_;
     all.clear();
     for (std::size_t p = 0; p < plates.size(); ++p) {
         const Segment &s = plates[p].segment();
         const auto id = static_cast<int32_t>(p);
         if (!period) {
-            all.push_back({s, id, 0, 0});
+            all.push_back({s, id, 0, 0, false});
         } else if (period.spanned_by(s)) {
             Segment endless = s.moved(-s.length * s.tangent);
             endless.length *= 3;
-            all.push_back({endless, id, 0, s.length});
+            all.push_back({endless, id, 0, s.length, false});
         } else {
             for (double shift : {0.0, period.length, -period.length})
-                all.push_back({s.moved({shift, 0}), id, shift, 0});
+                all.push_back({s.moved({shift, 0}), id, shift, 0, false});
         }
     }
     return all;
 }
 
-const std::vector<Segment> &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
-    std::vector<Segment> &found = barriers_;
+const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
+    std::vector<Segment> &found = barriers_.segments;
     found.clear();
-    for (const Nearby &image : images_of_plates()) {
+    for (const PlateImage &image : images_of_plates()) {
         const Segment &s = image.segment;
         const Box box = box_around(s, radius);
         if (particles.count == 0 || box.gap(grid.box()) > 0)
@@ -159,164 +80,239 @@ const std::vector<Segment> &Walls::barriers(const Particles &particles, const Ce
         grid.for_each_run(box, [&](int64_t begin, int64_t end) {
             for (int64_t i = begin; i < end && !behind; ++i) {
                 const Vector r(particles.x[i], particles.y[i]);
-                const double d = s.distance(r), along = s.along(r);
-                behind = d < -allowed && d > -radius && along > -radius && along < s.length + radius;
+                behind = s.distance(r) < -allowed && s.nearest_square(r) < radius * radius;
             }
         });
         if (behind)
             found.push_back(s);
     }
-    return found;
+    barriers_.cells.sort(
+        static_cast<int64_t>(found.size()), [&](int64_t k) { return &found[k]; }, grid.box(), radius);
+    return barriers_;
 }
 
-void Walls::find_nearby(const Particles &particles, const CellGrid &grid, double radius) {
-    nearby_.clear();
+void Walls::find_near(const Particles &particles, const CellGrid &grid, double radius) {
     if (particles.count == 0)
         return;
     for (Plate &plate : plates)
         plate.gap = INFINITY;
-    for (const Nearby &image : images_of_plates()) {
+    for (PlateImage &image : images_) {
         const double gap = box_around(image.segment, radius).gap(grid.box());
         plates[image.plate].gap = std::min(plates[image.plate].gap, gap);
-        if (gap <= 0)
-            nearby_.push_back(image);
+        image.near = gap <= 0;
     }
 }
 
 void Walls::place_candidates(const CellGrid &grid, double radius, double spacing) {
+    places_.clear();
+    for (const PlateChains::Chain &chain : chains_.all())
+        chains_.add_places(chain, images_, grid.box(), radius, spacing, places_);
     candidates_.clear();
-    // Lattice points behind each plate that lie within reach of the particles' box.
-    const auto layers = static_cast<int64_t>(std::ceil(radius / spacing));
-    for (std::size_t k = 0; k < nearby_.size(); ++k) {
-        const Segment &s = nearby_[k].segment;
-        double low = INFINITY, high = -INFINITY, near = INFINITY;
-        for (double bx : {grid.box().x_min, grid.box().x_max})
-            for (double by : {grid.box().y_min, grid.box().y_max}) {
-                low = std::min(low, s.along({bx, by}));
-                high = std::max(high, s.along({bx, by}));
-                near = std::min(near, s.distance({bx, by}));
-            }
-        if (near > radius)
-            continue;
-        // Past the ends the lattice fills corners.
-        const auto cells = static_cast<int64_t>(std::ceil(s.length / spacing - 1e-9));
-        const int64_t from = std::max(-layers, static_cast<int64_t>(std::floor((low - radius) / spacing)));
-        const int64_t to = std::min(cells + layers, static_cast<int64_t>(std::ceil((high + radius) / spacing)));
-        for (int64_t layer = 0; layer < layers; ++layer)
-            for (int64_t cell = from; cell < to; ++cell) {
-                const double along = (static_cast<double>(cell) + 0.5) * spacing;
-                const double depth = (static_cast<double>(layer) + 0.5) * spacing;
-                const Vector at = s.origin + along * s.tangent - depth * s.normal;
-                candidates_.push_back({static_cast<int32_t>(k), along, depth, at.x(), at.y(), 0, false});
-            }
-    }
+    for (const WallPlace &place : places_)
+        candidates_.push_back({place, 0, 0, false});
 }
 
-void Walls::find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                          double spacing, int threads) {
-    const int64_t n = particles.count;
-    const double tolerance = 1e-9 * spacing;
-    find_nearby(particles, grid, radius);
-    place_candidates(grid, radius, spacing);
+namespace {
 
-    // Calls seen(i) for the particles and images that see a candidate.
-    const double allowed = penetration_allowed * spacing;
-    const auto visit = [&](const Candidate &ghost, const auto &seen) {
-        const Segment &own = nearby_[ghost.nearby].segment;
-        const Vector at(ghost.x, ghost.y);
-        for_each_candidate(grid, images, ghost.x, ghost.y, radius, [&](int64_t i) {
-            const double dx = particles.x[i] - ghost.x, dy = particles.y[i] - ghost.y;
-            if (dx * dx + dy * dy >= radius * radius)
-                return;
-            Vector from(particles.x[i], particles.y[i]);
-            const double d = own.distance(from);
-            if (d <= 0) {
-                if (d < -allowed || !own.covers(own.along(from), tolerance))
-                    return;
-                from += (tolerance - d) * own.normal;
-            }
-            const double own_fraction = crossing(own, from, at, tolerance);
-            if (own_fraction < 0)
-                return;
-            for (std::size_t q = 0; q < nearby_.size(); ++q) {
-                if (static_cast<int32_t>(q) == ghost.nearby)
-                    continue;
-                const double fraction = crossing(nearby_[q].segment, from, at, tolerance);
-                // What is seen through a corner of two plates, as on the diagonal of a box, is the first one's.
-                const double same =
-                    static_cast<int32_t>(q) < ghost.nearby ? own_fraction + corner : own_fraction - corner;
-                if (fraction >= 0 && fraction < same) // hidden
-                    return;
-            }
-            seen(i);
-        });
-    };
-    const auto candidate_count = static_cast<int64_t>(candidates_.size());
-    for_each_block<ghost_block_size>(threads, candidate_count, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t k = begin; k < end; ++k)
-            visit(candidates_[k], [&](int64_t i) {
-                ++candidates_[k].neighbors;
-                candidates_[k].seen |= i < n;
-            });
+// Calls found(i) for the particles and images within `radius` of a place.
+template <class Found>
+void for_each_within(const Particles &particles, const CellGrid &grid, const Images &images, const WallPlace &at,
+                     double radius, const Found &found) {
+    for_each_candidate(grid, images, at.x, at.y, radius, [&](int64_t i) {
+        const double dx = particles.x[i] - at.x, dy = particles.y[i] - at.y;
+        if (dx * dx + dy * dy < radius * radius)
+            found(i);
     });
+}
+
+} // namespace
+
+// Who sees each candidate: in reach of it first, which tells the room needed, then those whose way to it is free.
+void Walls::find_seeing(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+                        double spacing, int threads) {
+    const auto count = static_cast<int64_t>(candidates_.size());
+    for_each_block<ghost_block_size>(threads, count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k)
+            for_each_within(particles, grid, images, candidates_[k].place, radius,
+                            [&](int64_t) { ++candidates_[k].neighbors; });
+    });
+    int64_t entries = 0;
+    for (Candidate &candidate : candidates_) {
+        candidate.first = entries;
+        entries += candidate.neighbors;
+    }
+    seeing_.resize(entries);
+    passed_.resize(entries);
+    const int64_t room = cells_.longest();
+    about_.resize(room * block_count<ghost_block_size>(count));
+    for_each_block<ghost_block_size>(threads, count, [&](int64_t block, int64_t begin, int64_t end) {
+        Sight sight{images_, chains_, radius, spacing, about_.data() + room * block, room};
+        for (int64_t k = begin; k < end; ++k) {
+            Candidate &ghost = candidates_[k];
+            if (ghost.neighbors == 0)
+                continue;
+            ghost.neighbors = 0;
+            if (!sight.look_about(ghost.place, cells_))
+                continue;
+            for_each_within(particles, grid, images, ghost.place, radius, [&](int64_t i) {
+                const int32_t image = sight.seen_through(ghost.place, {particles.x[i], particles.y[i]});
+                if (image < 0)
+                    return;
+                const int64_t entry = ghost.first + ghost.neighbors++;
+                seeing_[entry] = static_cast<int32_t>(i);
+                passed_[entry] = images_[image].plate;
+                ghost.seen |= i < particles.count;
+            });
+        }
+    });
+}
+
+// Candidates that a particle sees become ghosts.
+void Walls::keep_seen() {
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
                                      [](const Candidate &candidate) { return !candidate.seen; }),
                       candidates_.end());
-
     ghost_count = static_cast<int64_t>(candidates_.size());
     ghost_plate.resize(ghost_count);
+    ghost_chain.resize(ghost_count);
     if (period)
         ghost_shift.resize(ghost_count);
-    for (Field<double> *field :
-         {&ghost_along, &ghost_depth, &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
+    for (Field<double> *field : {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_distance, &ghost_x, &ghost_y,
+                                 &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         field->resize(ghost_count);
     particles_of_ghost.start.resize(ghost_count + 1);
     particles_of_ghost.start[0] = 0;
     for (int64_t k = 0; k < ghost_count; ++k) {
-        const Nearby &nearby = nearby_[candidates_[k].nearby];
-        ghost_plate[k] = nearby.plate;
+        const WallPlace &place = candidates_[k].place;
+        const PlateImage &image = images_[place.image];
+        ghost_plate[k] = image.plate;
+        ghost_chain[k] = chains_.chain_of(place.image).number;
         if (period)
-            ghost_shift[k] = nearby.shift;
-        ghost_along[k] = candidates_[k].along - nearby.before;
-        ghost_depth[k] = candidates_[k].depth;
-        ghost_x[k] = candidates_[k].x;
-        ghost_y[k] = candidates_[k].y;
+            ghost_shift[k] = image.shift;
+        ghost_along[k] = place.along - image.before;
+        ghost_depth[k] = place.depth;
+        ghost_nx[k] = place.nx;
+        ghost_ny[k] = place.ny;
+        ghost_distance[k] = place.distance;
+        ghost_x[k] = place.x;
+        ghost_y[k] = place.y;
         particles_of_ghost.start[k + 1] = particles_of_ghost.start[k] + candidates_[k].neighbors;
     }
-    const int64_t pairs = particles_of_ghost.start[ghost_count];
-    particles_of_ghost.index.resize(pairs);
-    for_each_block<ghost_block_size>(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t k = begin; k < end; ++k) {
-            int32_t *next = particles_of_ghost.index.data() + particles_of_ghost.start[k];
-            visit(candidates_[k], [&](int64_t i) { *next++ = static_cast<int32_t>(i); });
-        }
-    });
+    particles_of_ghost.index.resize(particles_of_ghost.start[ghost_count]);
+    for (int64_t k = 0; k < ghost_count; ++k)
+        std::copy_n(seeing_.begin() + candidates_[k].first, candidates_[k].neighbors,
+                    particles_of_ghost.index.begin() + particles_of_ghost.start[k]);
+}
 
-    // The transposed list: ghosts of each particle, in ghost order and so plate by plate.
+// The transposed list: ghosts of each particle, in ghost order and so chain by chain.
+void Walls::make_contacts(const Particles &particles) {
+    const int64_t n = particles.count;
     fill_.assign(n + 1, 0);
-    for (int64_t k = 0; k < pairs; ++k)
-        if (particles_of_ghost.index[k] < n)
-            ++fill_[particles_of_ghost.index[k] + 1];
+    for (const int32_t i : particles_of_ghost.index)
+        if (i < n)
+            ++fill_[i + 1];
     std::partial_sum(fill_.begin(), fill_.end(), fill_.begin());
     ghost_of_contact.resize(fill_[n]);
+    passed_of_contact_.resize(fill_[n]);
     for (int64_t k = 0; k < ghost_count; ++k)
-        for (int64_t e = particles_of_ghost.start[k]; e < particles_of_ghost.start[k + 1]; ++e)
-            if (particles_of_ghost.index[e] < n)
-                ghost_of_contact[fill_[particles_of_ghost.index[e]]++] = static_cast<int32_t>(k);
+        for (int64_t e = 0; e < candidates_[k].neighbors; ++e)
+            if (const int32_t i = seeing_[candidates_[k].first + e]; i < n) {
+                const int32_t place = fill_[i]++;
+                ghost_of_contact[place] = static_cast<int32_t>(k);
+                passed_of_contact_[place] = passed_[candidates_[k].first + e];
+            }
     contacts.clear();
     contact_start.resize(n + 1);
-    int64_t entry = 0;
+    int32_t entry = 0;
     for (int64_t i = 0; i < n; ++i) {
         contact_start[i] = static_cast<int32_t>(contacts.size());
         while (entry < fill_[i]) { // fill_[i] has become the end of row i
-            const int32_t plate = ghost_plate[ghost_of_contact[entry]];
-            const int64_t begin = entry;
-            while (entry < fill_[i] && ghost_plate[ghost_of_contact[entry]] == plate)
+            const int32_t begin = entry, chain = ghost_chain[ghost_of_contact[entry]];
+            while (entry < fill_[i] && ghost_chain[ghost_of_contact[entry]] == chain)
                 ++entry;
-            contacts.push_back({static_cast<int32_t>(i), plate, begin, entry, 0, 0, 0, 0});
+            add_contacts(particles, i, begin, entry);
         }
     }
     contact_start[n] = static_cast<int32_t>(contacts.size());
+}
+
+// A particle's contacts with one chain: one for what it sees through plates that turn by less than a right angle, which is all
+// but in a narrow groove.
+void Walls::add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end) {
+    while (begin < end) {
+        int32_t stop = end;
+        const int32_t passed = passed_of_contact_[begin];
+        if (chains_.joined(passed)) {
+            const Vector &tangent = plates[passed].segment().tangent;
+            stop = begin;
+            for (int32_t k = begin; k < end; ++k)
+                if (tangent.dot(plates[passed_of_contact_[k]].segment().tangent) > 0) {
+                    std::rotate(ghost_of_contact.begin() + stop, ghost_of_contact.begin() + k,
+                                ghost_of_contact.begin() + k + 1);
+                    std::rotate(passed_of_contact_.begin() + stop, passed_of_contact_.begin() + k,
+                                passed_of_contact_.begin() + k + 1);
+                    ++stop;
+                }
+        }
+        const int32_t plate = facing(passed, Vector(particles.x[i], particles.y[i]));
+        contacts.push_back(
+            {static_cast<int32_t>(i), plate, plate, ghost_chain[ghost_of_contact[begin]], begin, stop, 0, 0, 0, 0});
+        begin = stop;
+    }
+}
+
+void Walls::find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+                          double reach, double spacing, bool may_join, int threads) {
+    images_of_plates();
+    find_near(particles, grid, radius);
+    chains_.find(plates, images_, reach, spacing, may_join);
+    place_candidates(grid, radius, spacing);
+    cells_.sort(
+        static_cast<int64_t>(images_.size()),
+        [&](int64_t k) { return images_[k].near ? &images_[k].segment : nullptr; }, grid.box(),
+        radius + penetration_allowed * spacing);
+    find_seeing(particles, grid, images, radius, spacing, threads);
+    keep_seen();
+    make_contacts(particles);
+}
+
+// The plate of the chain that is nearest to a place, going from one to the next.
+int32_t Walls::facing(int32_t plate, const Vector &at) const {
+    while (chains_.joined(plate)) {
+        const Segment &s = plates[plate].segment();
+        const Vector image = nearest_image(plates[plate], at);
+        const PlateChains::Link &link = chains_.link(plate);
+        const int32_t other = s.along(image) < 0.5 * s.length ? link.before : link.after;
+        if (other < 0 ||
+            plates[other].segment().nearest_square(nearest_image(plates[other], at)) >= s.nearest_square(image))
+            break;
+        plate = other;
+    }
+    return plate;
+}
+
+// From where it was when the lists were made, so that a run that goes on from a checkpoint finds the same.
+void Walls::face_plates(const Particles &particles) {
+    if (!chains_.any())
+        return;
+    for (Contact &contact : contacts)
+        contact.plate =
+            facing(contact.listed_plate, Vector(particles.x[contact.particle], particles.y[contact.particle]));
+}
+
+int64_t Walls::contact_of(int64_t i, int64_t ghost) const {
+    int64_t found = -1;
+    double most = -INFINITY;
+    for (int32_t c = contact_start[i]; c < contact_start[i + 1]; ++c) {
+        if (contacts[c].chain != ghost_chain[ghost])
+            continue;
+        const Vector &n = plates[contacts[c].listed_plate].segment().normal;
+        if (const double alike = n.x() * ghost_nx[ghost] + n.y() * ghost_ny[ghost]; alike > most) {
+            most = alike;
+            found = c;
+        }
+    }
+    return found;
 }
 
 void Walls::find_wall_particles(double spacing) {

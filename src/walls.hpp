@@ -1,17 +1,20 @@
-// Plates: their motion, the ghost particles that stand for their bodies, and the loads on them.
+// Plates: the ghost particles that stand for their bodies, and the loads on them.
 //
-// A ghost exists only while a particle can see it: on the lattice of the spacing behind the plate's wetted line (extended
-// past its ends to fill corners), within the horizon of a particle from which the straight way to the ghost passes
-// through this plate and no other before it. So each point behind a corner belongs to exactly one plate, and a thin
-// gate hides what is behind it.
+// A ghost exists only while a particle can see it: on the lattice of the spacing behind the wetted line of a chain of plates
+// (extended past its ends to fill corners), within the horizon of a particle from which the straight way to the ghost passes
+// through this chain and no other before it. So each point behind a corner belongs to exactly one wall, and a thin gate
+// hides what is behind it.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "clusters.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
-#include "scene.hpp"
+#include "plate.hpp"
+#include "plate_chains.hpp"
+#include "segment_cells.hpp"
 
 namespace gp {
 
@@ -19,67 +22,18 @@ namespace gp {
 // first layer of ghosts, half a spacing behind the surface.
 constexpr double contact_distance = 0.4; // dl
 
-// A plate in motion.
-class Plate {
-public:
-    explicit Plate(const PlateSpec &spec)
-        : spec_(&spec), driven_from_(Vector::Zero()), driven_velocity_(Vector::Zero()) {}
-
-    Vector displacement(double time) const;
-    // The host drives the plate from now on.
-    void drive(double time, const Vector &velocity);
-    // Can it still move after `time` by its own motion?
-    bool moves_after(double time) const;
-    // Takes whole periods off where it stands, so that its middle is within the period. displacement() keeps them.
-    void wrap(const Period &period, double time);
-    // All that changes of a plate, but for the loads.
-    struct Motion {
-        bool driven = false;
-        double driven_since = 0;
-        Vector driven_from = Vector::Zero(), driven_velocity = Vector::Zero();
-        double fallen = 0, fall_speed = 0; // m, m/s, along the normal, of a loaded plate
-        double wrapped = 0;                // m, whole periods taken off in x
-        Vector origin = Vector::Zero();    // m, where place() put end 0
-        Vector velocity = Vector::Zero();
-    };
-    Motion motion() const;
-    void set_motion(const Motion &motion);
-
-    // Displacement at `time`, and the mean velocity of the step that follows.
-    void place(double time, double dt);
-
-    const PlateSpec &spec() const { return *spec_; }
-    const Segment &segment() const { return placed_; } // where place() put it
-    bool loaded() const { return spec_->load > 0; }
-    // Moves a loaded plate along its normal: load and the material's force over one step. default_mass: kg/m2.
-    void fall(double dt, double default_mass);
-    const Vector &velocity() const { return velocity_; }
-
-    Vector force = Vector::Zero();   // N/m, of the material on the plate over the last step
-    double torque = 0;               // N, about end 0
-    Vector impulse = Vector::Zero(); // N s/m, since the start
-    double gap = 0;                  // m, by which plate and material are out of each other's reach at least
-
-private:
-    Vector prescribed_displacement(double time) const;
-
-    const PlateSpec *spec_;
-    bool driven_ = false;
-    double driven_since_ = 0;
-    Vector driven_from_, driven_velocity_;
-    double fallen_ = 0, fall_speed_ = 0; // m, m/s, along the normal, of a loaded plate
-    double wrapped_ = 0;                 // m, whole periods taken off in x
-    Segment placed_ = spec_->segment;
-    Vector velocity_ = Vector::Zero();
-};
-
-// The ghosts that a particle sees of one plate.
+// The ghosts that a particle sees of one side of a chain of plates, and the plate of it that the particle is in front of:
+// what pushes it, rubs it and bears its load. In a narrow groove a particle has contacts with both sides.
 struct Contact {
-    int32_t particle, plate;
-    int64_t begin, end;                          // in Walls::ghost_of_contact
-    double force_x, force_y;                     // N/m3: force density on the particle
-    double power;                                // W/m3: of that force on the particle
-    double ghost_power;                          // W/m3: the ghosts' share of sigma : L
+    int32_t particle;
+    int32_t plate, listed_plate; // in front of which it is in this step, and was when the lists were made
+    int32_t chain;               // its number
+    int64_t begin, end;          // in Walls::ghost_of_contact
+    double force_x, force_y;     // N/m3: force density on the particle
+    double power;                // W/m3: of that force on the particle
+    double ghost_power;          // W/m3: the ghosts' share of sigma : L
+    // 1/s: the velocity gradient that the particle's neighbours make without ghosts; kept by its first contact.
+    double inner_xx = 0, inner_xy = 0, inner_yx = 0, inner_yy = 0;
     double held_normal = 0, held_tangential = 0; // m/s: by wall_support and wall_hold in this step
 };
 
@@ -89,9 +43,12 @@ struct Walls {
 
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
-    Field<int32_t> ghost_plate;
+    Field<int32_t> ghost_plate;   // the one in front of it
+    Field<int32_t> ghost_chain;   // number
     Field<int32_t> wall_particle; // the ghost of the first layer whose state it takes; only in the paper's schemes
     Field<double> ghost_along, ghost_depth;        // m, in the plate's frame: from end 0, and behind the wetted line
+    Field<double> ghost_nx, ghost_ny;              // from the ghost to the wetted line of its chain, unit vector
+    Field<double> ghost_distance;                  // m, on that way; ghost_depth but where the line turns
     Field<double> ghost_shift;                     // m, 0 or a period up or down; periodic scenes only
     Field<double> ghost_x, ghost_y;                // m
     Field<double> ghost_vx, ghost_vy;              // m/s, extrapolated
@@ -100,7 +57,7 @@ struct Walls {
     NeighborList particles_of_ghost; // (close_count unused)
     Field<int32_t> ghost_of_contact; // rows of contacts
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
-    std::vector<Contact> contacts;   // ordered by particle, then plate
+    std::vector<Contact> contacts;   // ordered by particle, then chain
 
     // The image of a point that is nearest to a plate's middle.
     Vector nearest_image(const Plate &plate, Vector point) const {
@@ -131,12 +88,31 @@ struct Walls {
     bool in_reach() const { return !contacts.empty(); }
     int64_t bytes() const;
 
-    // Plates with material right behind them: pairs of particles do not interact through these.
-    const std::vector<Segment> &barriers(const Particles &particles, const CellGrid &grid, double radius);
+    // Plates with material right behind them.
+    const Barriers &barriers(const Particles &particles, const CellGrid &grid, double radius);
 
-    // Finds ghosts and contacts within `radius` of the sorted particles.
+    // Finds ghosts and contacts within `radius` of the sorted particles. reach: the radius without a skin; may_join: plates
+    // that meet become one wall.
     void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                       double spacing, int threads);
+                       double reach, double spacing, bool may_join, int threads);
+
+    // Do the plates that made a wall when the lists were made still move together?
+    bool chains_stand() const { return chains_.stand(plates); }
+
+    // Turns each contact to the plate of its chain that the particle is in front of by now.
+    void face_plates(const Particles &particles);
+
+    // Is a place in front of the plate's surface, not past a free end of it? Past a joint, the next plate has it from the next
+    // step on.
+    bool faces(int32_t plate, const Vector &at) const {
+        const Segment &s = plates[plate].segment();
+        const double along = s.along(at);
+        const PlateChains::Link &link = chains_.link(plate);
+        return (along >= 0 || link.before >= 0) && (along < s.length || link.after >= 0);
+    }
+
+    // Particle i's contact with the wall in front of a ghost, -1 if there is none.
+    int64_t contact_of(int64_t i, int64_t ghost) const;
 
     // Finds the wall particle of each ghost: the one in front of it, or the nearest that is between the plate's ends.
     void find_wall_particles(double spacing);
@@ -148,27 +124,31 @@ struct Walls {
     int64_t count_overlapping(const Particles &particles, double margin) const;
 
 private:
-    // Plates in reach, each with its images across the ends of the period.
-    struct Nearby {
-        Segment segment;
-        int32_t plate;
-        double shift;  // m, of the image
-        double before; // m, from where the segment begins to end 0
-    };
-    const std::vector<Nearby> &images_of_plates();
-    void find_nearby(const Particles &particles, const CellGrid &grid, double radius);
+    const std::vector<PlateImage> &images_of_plates();
+    void find_near(const Particles &particles, const CellGrid &grid, double radius);
     void place_candidates(const CellGrid &grid, double radius, double spacing);
+    void find_seeing(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+                     double spacing, int threads);
+    void keep_seen();
+    void make_contacts(const Particles &particles);
+    void add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end);
+    int32_t facing(int32_t plate, const Vector &at) const;
 
     struct Candidate {
-        int32_t nearby; // which
-        double along, depth, x, y;
+        WallPlace place;
+        int64_t first;     // of its entries in seeing_ and passed_
         int64_t neighbors; // particles and images that see it
         bool seen;         // by a particle
     };
-    std::vector<Nearby> nearby_, images_;
-    std::vector<Segment> barriers_;
+    std::vector<PlateImage> images_; // plates, and in a periodic scene their images
+    PlateChains chains_;
+    SegmentCells cells_;
+    Barriers barriers_;
+    std::vector<WallPlace> places_;
     std::vector<Candidate> candidates_;
-    Field<int32_t> fill_;
+    Field<int32_t> seeing_, passed_; // who sees a candidate, and the plate that the way passes
+    Field<int32_t> about_;           // plates about a ghost, for each block of ghosts
+    Field<int32_t> fill_, passed_of_contact_;
 };
 
 } // namespace gp

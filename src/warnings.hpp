@@ -26,6 +26,7 @@ private:
         passed_plate,
         large_penalty,
         large_energy_error,
+        lost_volume,
         kinds
     };
 

@@ -14,10 +14,11 @@ std::unique_ptr<World> make_world(const Scene &scene) {
 
     Particles &p = world->particles;
     p.volume = c.volume;
-    p.allocate(scene.particle_count(), {c.penalty > 0, scene.config().density_diffusion > 0,
-                                        !scene.plates().empty() && !by_number_density(c.scheme),
-                                        c.scheme != Scheme::paper_local, by_number_density(c.scheme)});
-    const std::vector<double> pressure = scene.initial_pressure(c);
+    p.allocate(scene.particle_count(),
+               {c.penalty > 0, !by_number_density(c.scheme), scene.config().density_diffusion > 0,
+                !scene.plates().empty() && !by_number_density(c.scheme), c.scheme != Scheme::paper_local,
+                by_number_density(c.scheme)});
+    const std::vector<InitialStress> stress = scene.initial_stress(c);
     for (int64_t i = 0; i < p.count; ++i) {
         p.id[i] = i;
         p.column[i] = scene.column[i];
@@ -25,8 +26,10 @@ std::unique_ptr<World> make_world(const Scene &scene) {
         p.y[i] = scene.y[i];
         p.vx[i] = scene.vx[i];
         p.vy[i] = scene.vy[i];
-        p.pressure[i] = pressure[i];
-        p.density[i] = world->material_of(i).density + pressure[i] / (c.sound_speed * c.sound_speed);
+        p.pressure[i] = stress[i].pressure;
+        p.sxx[i] = stress[i].sxx;
+        p.sxy[i] = stress[i].sxy;
+        p.density[i] = world->material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);
     }
     for (int64_t i = 0; i < p.count; ++i)
         world->mass += world->material_of(i).density * p.volume;

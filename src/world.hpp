@@ -37,6 +37,7 @@ struct Ledger {
     double penalty = 0;          // the part of the zero-energy penalty
     double walls = 0;            // the part lost between ghosts and plates, and by grains in flight above them
     double diffusion = 0;        // the part of density diffusion
+    double spacing = 0;          // the part of density_of_spacing: what it gives, below 0
     double bulk = 0;             // the part of the bulk viscosity
     double collisions = 0;       // the part of the collision safeguard
     double side_walls = 0;       // the part of the friction of side walls
@@ -50,6 +51,7 @@ struct alignas(64) BlockSums {
     double plastic = 0;        // J/m, dissipated by yielding
     double bulk = 0;           // J/m, dissipated by the bulk viscosity
     double diffused = 0;       // J/m, lost by density diffusion
+    double spaced = 0;         // J/m, lost where the density follows the spacing
     double total_power = 0;    // W/m, of all internal and wall forces
     double internal_power = 0; // W/m, sum of V sigma:L
     double acceleration2 = 0;  // m2/s4, sum
@@ -86,8 +88,8 @@ struct StepStart {
 
 // What the neighbour lists were made of. A checkpoint keeps it in place of the lists, which it makes anew from it.
 struct ListOrigin {
-    Field<double> x, y;         // m, of the particles in sorted order
-    std::vector<Vector> plates; // m, end 0 of each
+    Field<double> x, y; // m, of the particles in sorted order
+    std::vector<Plate::Motion> plates;
 
     int64_t bytes() const { return static_cast<int64_t>((x.capacity() + y.capacity()) * sizeof(double)); }
 };
@@ -127,7 +129,8 @@ struct World {
     double plastic_power = 0;    // W/m, of the last step
     double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g lately
     int64_t collisions = 0;
-    double max_compression = 0; // largest density over the material's own so far, less 1
+    double max_compression = 0;  // largest density over the material's own so far, less 1
+    double packing_at_start = 0; // volume_drift.hpp; the lattice's if no horizon was full
     StepStart step_start;
     std::vector<Piece> pieces; // of a diverged step, the next one last
     int64_t retries = 0;

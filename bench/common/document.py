@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import Callable, Iterable
 
@@ -58,6 +59,40 @@ def tidy(text: str) -> str:
     return text.rstrip() + "\n"
 
 
+def changelog_versions() -> list[str]:
+    """The headings of CHANGELOG.md, the latest first."""
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    return re.findall(r"^## (.*)$", text, re.MULTILINE)
+
+
+def split_sections(text: str) -> dict[str, str]:
+    """Parts of a report by their titles, in order; what is above the first has the title ""."""
+    parts = re.split(r"^## (.*)\n", text, flags=re.MULTILINE)
+    return {"": parts[0], **dict(zip(parts[1::2], parts[2::2]))}
+
+
+MIXED = "**Sections of more than one version.**"
+
+
+def with_sections(old: str, new: str, titles: Iterable[str], versions: list[str]) -> str:
+    """The old report with these sections of the new one, at their places in it, and a paragraph that says so."""
+    kept, made = split_sections(old), split_sections(new)
+    titles = list(titles)
+    for title in titles:
+        if title not in made:
+            raise SystemExit(f"no section {title!r}: there are {', '.join(list(made)[1:])}")
+    said = (
+        f"{MIXED} {', '.join(titles)}: of {versions[0]}. All others: of {versions[1]}, made anew with the release."
+    )
+    paragraphs = [one for one in kept[""].split("\n\n") if not one.startswith(MIXED)]
+    paragraphs.insert(1, said)
+    order = [title for title in made if title in kept or title in titles]
+    order += [title for title in kept if title not in made]
+    body = {title: made[title] if title in titles else kept[title] for title in order if title}
+    head = "\n\n".join(paragraphs)
+    return tidy(head + "".join(f"## {title}\n{text}" for title, text in body.items()))
+
+
 def write_report(
     name: str, description: str, figures: dict, every_run: Iterable[Run], compose: Callable[[Collection, set[str]], str]
 ) -> None:
@@ -67,11 +102,24 @@ def write_report(
         "--results", type=Path, default=ROOT / "results" / name, help=f"where the results are [results/{name}]"
     )
     parser.add_argument("--docs", type=Path, default=ROOT / "docs", help=f"where {name}.md goes [docs]")
+    parser.add_argument(
+        "--section",
+        metavar="TITLE",
+        action="append",
+        help="write only this section anew, without figures, and leave the rest of the report as it is; more than once for more",
+    )
     arguments = parser.parse_args()
     collection = Collection(arguments.results)
-    drawn = draw_all(figures, arguments.docs / "images", name, collection)
-    for run in every_run:
-        collection(run)
     report = arguments.docs / f"{name}.md"
-    report.write_text(compose(collection, drawn), encoding="utf-8")
+    if arguments.section:
+        drawn: set[str] = set()
+        text = with_sections(
+            report.read_text(encoding="utf-8"), compose(collection, drawn), arguments.section, changelog_versions()
+        )
+    else:
+        drawn = draw_all(figures, arguments.docs / "images", name, collection)
+        for run in every_run:
+            collection(run)
+        text = compose(collection, drawn)
+    report.write_text(text, encoding="utf-8")
     print(f"{report}: {len(collection.found)} results, {len(collection.absent)} missing, {len(drawn)} figures")

@@ -186,7 +186,9 @@ def modes(path: Path, results: Collection) -> bool:
     figure, axes = plt.subplots(1, len(runs.MODES), figsize=(13, 4.8), layout="constrained", sharey=True)
     drawn = False
     for ax, pattern in zip(axes, runs.MODES):
-        for penalty, shade in zip(runs.PENALTIES, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(runs.PENALTIES)))):
+        for penalty, shade in zip(
+            runs.MODE_PENALTIES, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(runs.MODE_PENALTIES)))
+        ):
             result = results(runs.mode(pattern, penalty))
             if not result:
                 continue

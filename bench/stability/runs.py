@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import Callable
 
 from coefficients import COEFFICIENTS, FINE, NUMERICAL, Coefficient
+from long_shear import PROGRAM as WALLS
+from long_shear import long_shear
 from run import Program, Run
 from theory import SHEAR_TO_BULK
 
@@ -23,7 +25,8 @@ PROGRAMS = {
             "examples/c/example.[ch]",
         ),
         records=True,
-    )
+    ),
+    "walls": WALLS,
 }
 
 
@@ -260,6 +263,7 @@ def motion_of(scheme: str) -> list[Run]:
 ROUGH_HORIZONS = (2.2, 2.6, 3.0)
 UNDAMPED = {"zero-energy penalty": "penalty", "density diffusion": "diffusion", "bulk viscosity": "bulk_viscosity"}
 PENALTIES = (0.0, 0.005, 0.01, 0.02, 0.04, 0.1)
+MODE_PENALTIES = (0.0, 0.02, 0.1, 0.3, 0.5)  # inside the yield surface the least is 0.2
 MODES = ("checkerboard", "stripes")
 
 
@@ -274,7 +278,7 @@ def undamped(name: str) -> Run:
 
 def mode(pattern: str, penalty: float) -> Run:
     options = _options(penalty=penalty)
-    arguments = ("layer", "--mode", pattern, "--end", "0.02", "--interval", "0.0005", "--rough", "1", *options)
+    arguments = ("layer", "--mode", pattern, "--end", "0.02", "--interval", "0.0002", "--rough", "1", *options)
     return Run(_name("mode", pattern, options=options), "stability", arguments, 0.3)
 
 
@@ -381,12 +385,13 @@ def studies() -> dict[str, list[Run]]:
         "creep": [run for scheme in SCHEMES for run in motion_of(scheme)],
         "drift": [rest.run for s in SCHEMES.values() for rest in rests_of(s)],
         "roughness": [rough_horizon(h) for h in ROUGH_HORIZONS] + [undamped(name) for name in UNDAMPED],
-        "modes": [mode(pattern, penalty) for pattern in MODES for penalty in PENALTIES],
+        "modes": [mode(pattern, penalty) for pattern in MODES for penalty in MODE_PENALTIES],
         "sensitivity": sensitivity(),
         "sensitivity_fine": sensitivity_fine(),
         "coarse": [
             coarse(r, d, h) for r in COARSE_RESOLUTIONS for d in COARSE_DIAMETERS for h in COARSE_HORIZONS
         ],
         "resolution": [resolution_run(r) for r in RESOLUTIONS],
+        "long_shear": long_shear(),
         "million": [million()],
     }

@@ -285,25 +285,34 @@ def pressure(results: Collection) -> str:
 
 def modes(results: Collection) -> str:
     rows = []
-    base = results(runs.base_ensemble())
-    for penalty in runs.PENALTIES:
+    for penalty in runs.MODE_PENALTIES:
         row = [f"{penalty:g}"]
         for pattern in runs.MODES:
             result = results(runs.mode(pattern, penalty))
             unit = result.summary["sound_speed"] * 32 / runs.WIDTH if result else math.nan
             row.append(significant(theory.checkerboard_decay(4, penalty, pattern), 2))
             row.append(significant(decay_rate(result) / unit, 2) if result else NONE)
-        c = next(one for one in NUMERICAL if one.option == "--penalty")
+        rows.append(row)
+    header = ["penalty"]
+    for pattern in runs.MODES:
+        header += [f"{pattern}: theory (c0/dl)", "measured"]
+    return table(header, rows)
+
+
+def penalties(results: Collection) -> str:
+    """What the penalty changes in the deposit."""
+    rows = []
+    base = results(runs.base_ensemble())
+    c = next(one for one in NUMERICAL if one.option == "--penalty")
+    for penalty in runs.PENALTIES:
         deposit = results(runs.varied(c, penalty))
+        row = [f"{penalty:g}"]
         for column in ("peak", "spread"):
             one = change(deposit, base, column) if deposit and base else None
             row.append("0" if penalty == c.default else with_doubt(one) if one else NONE)
         row.append(f"{100 * deposit.summary['penalty_share']:.1f} %" if deposit else NONE)
         rows.append(row)
-    header = ["penalty"]
-    for pattern in runs.MODES:
-        header += [f"{pattern}: theory (c0/dl)", "measured"]
-    return table([*header, "peak", "run-out, 98 %", "share of the dissipation"], rows)
+    return table(["penalty", "peak", "run-out, 98 %", "share of the dissipation"], rows)
 
 
 def dissipation(results: Collection) -> str:

@@ -12,6 +12,12 @@ import math
 import numpy as np
 
 SHEAR_TO_BULK = 0.3  # shear modulus over bulk modulus of the elastic scheme; 0: shear is left to an implicit solve
+ELASTIC_PENALTY = 0.2  # rho c0 / dl, the least zero-energy penalty of the elastic scheme inside the yield surface
+
+
+def inside_yield(penalty: float) -> float:
+    """What the elastic scheme makes of gp_config.zero_energy_penalty in material that does not flow."""
+    return max(penalty, ELASTIC_PENALTY) if penalty > 0 else 0.0
 
 
 def neighbours(radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -65,7 +71,7 @@ def _strip(
     adjoint = g.conj().T
     stiffness = adjoint @ np.kron(np.eye(rows), _tensor(1, shear)) @ g
     damping = adjoint @ np.kron(np.eye(rows), _tensor(bulk, bulk if shear else 0)) @ g
-    return stiffness, damping + penalty / w.sum() * unseen
+    return stiffness, damping + (inside_yield(penalty) if shear else penalty) / w.sum() * unseen
 
 
 def _largest_step(stiffness: np.ndarray, damping: np.ndarray) -> float:
@@ -115,7 +121,8 @@ def interior(horizon: float, bulk: float = 0.1, penalty: float = 0.02, shear: fl
     dx, dy = _symbols(horizon, w * r, True)
     q2 = (dx**2 + dy**2) / moment**2
     pairs, _ = _symbols(horizon, w, False)
-    damping = (2 if shear else 1) * bulk * q2 + penalty / w.sum() * (pairs - moment * q2)
+    unseen = pairs - moment * q2
+    damping = (2 if shear else 1) * bulk * q2 + (inside_yield(penalty) if shear else penalty) / w.sum() * unseen
     stiffness = np.maximum((1 + shear) * q2, 1e-12)
     return math.sqrt(1 + shear) * float(np.min((np.sqrt(damping**2 + 4 * stiffness) - damping) / stiffness))
 
@@ -137,10 +144,11 @@ def number_density_interior(horizon: float, interaction: float, force_states: bo
 
 
 def checkerboard_decay(horizon: float, penalty: float, pattern: str) -> float:
-    """Rate of the kinetic energy of a pattern that the gradient does not see, in c0 / dl."""
+    """Rate of the kinetic energy of a pattern that the gradient does not see in the elastic scheme's layer at rest, which is
+    inside its yield surface, in c0 / dl."""
     x, y, w = neighbours(horizon)
     sign = (-1.0) ** (x + y) if pattern == "checkerboard" else (-1.0) ** y
-    return 2 * penalty * float(w @ (1 - sign)) / w.sum()
+    return 2 * inside_yield(penalty) * float(w @ (1 - sign)) / w.sum()
 
 
 def effective_delta(mu: float, gravity: float, depth: float, spacing: float, dt: float) -> float:

@@ -15,6 +15,7 @@ import physics_sections as physics
 import references as ref
 import runs
 import verdicts
+import wall_sections as walls
 from document import bullets, missing_runs, provenance, tidy, write_report
 from results import Collection
 
@@ -169,6 +170,10 @@ The column of a = 1.25, gates gone at once, with public codes at the same μ(I).
 {physics.exact(collection)}
 
 {figure("exact", drawn, "Error against resolution and against run time")}
+
+## Walls and inclines
+
+{walls.section(collection)}
 
 ## Verdict on the factor 2
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import references as ref
 from run import Program, Run, cheapest_first
+from wall_runs import PROGRAM as WALLS
+from wall_runs import walls
 
 # Side walls. What counts is channel_friction / channel_width. The paper does not give the width of its channel, so the study
 # SIDE_WALLS varies the ratio. "walls" is a channel ten grains wide whose walls have the friction of glass on Plexiglas,
@@ -27,6 +29,7 @@ PROGRAMS = {
     ),
     "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
     "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),
+    "walls": WALLS,
 }
 
 
@@ -361,6 +364,7 @@ def studies() -> dict[str, list[Run]]:
         "contact_dynamics": [contact_dynamics(a) for a in ref.CONTACT_DYNAMICS],
         "couette": [couette(case) for case in COUETTE_CASES],
         "exact": [exact(case, r) for case, (_, _, resolutions, _) in EXACT_CASES.items() for r in resolutions],
+        "walls": walls(),
     }
 
 

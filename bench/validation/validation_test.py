@@ -11,9 +11,11 @@ from smoke import Workplace  # first: skips where NumPy is missing
 
 import numpy as np
 
+import document
 import measures
 import results
 import runs
+import wall_runs
 
 
 def check_result(result: results.Result) -> None:
@@ -35,6 +37,19 @@ def check_result(result: results.Result) -> None:
     assert len(rows["x"]) > 10 and rows["vx"][0] < 0 < rows["vx"][-1], "both sides flow outwards"
 
 
+def check_sections(report: str) -> None:
+    """One section written anew in an older report: it is at its place, the others as they were, and the head says so."""
+    title = "Walls and inclines"
+    made = document.split_sections(report)
+    older = report.replace(f"## {title}\n{made[title]}", "").replace("## Independent codes\n", "## Independent codes\n\nOld.\n")
+    for _ in range(2):  # the second time it is there already
+        older = document.with_sections(older, report, [title], ["2", "1"])
+        found = document.split_sections(older)
+        assert list(found) == list(made) and found[title] == made[title]
+        assert "Old." in found["Independent codes"] and older.count(document.MIXED) == 1
+        assert f"{title}: of 2. All others: of 1" in found[""]
+
+
 def main() -> None:
     place = Workplace.asked_for(HERE, __doc__)
 
@@ -45,7 +60,14 @@ def main() -> None:
     check_result(result)
     assert "0 to do" in place.run(run.name), "a run that has its result is not run again"
 
+    slide = wall_runs.slide_coulomb(1, False)
+    place.run(slide.name)
+    traction = results.load(slide, place.found).summary["traction"]
+    assert abs(traction - 1) < 0.01, "a row of particles is braked by friction times its weight"
+
     report, images = place.report("validation.md")
+    assert f"| 1 row, rough floor | 1 | {traction:.4f} |" in report, "the section on walls has the traction"
+    check_sections(report)
     assert f"{measures.peak(result):.3f} (" in report, "the resolution table has the peak"
     assert "Missing runs" in report and "nan" not in report.lower().replace("finance", "")
     assert "validation_resolution.png" in images, images

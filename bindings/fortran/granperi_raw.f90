@@ -86,7 +86,8 @@ module granperi_raw
             !! GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0 [1e-6]
         real(c_double) :: collision_distance !! dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9]
         real(c_double) :: zero_energy_penalty
-            !! of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
+            !! of the velocity that the gradient does not see, in rho c0 / dl; inside the yield surface at least 0.2
+            !! with GP_STRESS_ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
         real(c_double) :: density_diffusion
             !! smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1 [the scheme's own: 0.2]
         real(c_double) :: channel_width
@@ -134,7 +135,7 @@ module granperi_raw
         real(c_double) :: i0 !! I at which mu is half way between; > 0 [0.3]
     end type
 
-    !> The pressure with which a column begins.
+    !> The stress with which a column begins.
     integer(c_int32_t), parameter :: GP_INITIAL_HYDROSTATIC = 0
         !! in balance with the plates that support the column: no shock at the start
     integer(c_int32_t), parameter :: GP_INITIAL_NONE = 1 !! none: gravity sets in suddenly
@@ -152,17 +153,27 @@ module granperi_raw
             !! GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the opposite face, for
             !! each face of normal n into which gravity presses and at least half of which rests on plates or on other
             !! hydrostatic columns so borne; to it is added what rests on the opposite face: such columns, and the
-            !! normal_pressure of plates. 0 where nothing bears. No effect with GP_DENSITY_NUMBER
+            !! normal_pressure of plates. 0 where nothing bears. With GP_STRESS_ELASTIC, where one such face alone bears
+            !! and no plate loads the other: the shear stress rho g.t depth along that face too, as far as the friction
+            !! of the material and of the plates under it bears it; and where a side is free and mu_s >= 1, so that the
+            !! friction holds it, no stress across: half the pressure, the other half as deviator. No effect with
+            !! GP_DENSITY_NUMBER
     end type
 
-    !> What the wall does to the tangential velocity.
-    integer(c_int32_t), parameter :: GP_WALL_NO_SLIP = 0
-        !! the material sticks to a rough wall as far as its own friction allows
+    !> What the wall does to the tangential velocity. The traction along a wall is a law of friction: it holds what it
+    !> can, never drives, and is never more than the material itself bears there, mu(I) of the rate at the wall's
+    !> surface times the wall's normal force on each particle (with GP_STRESS_IMPLICIT the shear at a rough wall is part
+    !> of the implicit solve).
+    integer(c_int32_t), parameter :: GP_WALL_NO_SLIP = 0 !! a rough wall: the material's own friction
     integer(c_int32_t), parameter :: GP_WALL_FREE_SLIP = 1
         !! no shear traction. The forces reach over the horizon: beside a pressure that changes along the plate, a share
         !! of the order of dl / extent of the scene still acts along it
-    integer(c_int32_t), parameter :: GP_WALL_COULOMB = 2 !! tangential traction up to wall_mu times the normal one
+    integer(c_int32_t), parameter :: GP_WALL_COULOMB = 2
+        !! up to wall_mu times the normal traction, or what the material bears, if that is less
 
+    !> Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn
+    !> by 50 degrees at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its
+    !> own.
     type, bind(c) :: gp_plate
         integer(c_int32_t) :: struct_size = 0
         real(c_double) :: x0
@@ -296,14 +307,26 @@ module granperi_raw
         real(c_double) :: x_right
             !! m, fronts of the connected deposit: the largest set of particles each within 1.6 dl of another, half a
             !! spacing added
-        real(c_double) :: peak_x !! m, highest point of its surface: x, and y (an absolute coordinate)
-        real(c_double) :: peak_height !! m, highest point of its surface: x, and y (an absolute coordinate)
+        real(c_double) :: peak_x
+            !! m, highest point of its surface: x, and y (an absolute coordinate). Extrapolated from the surface
+            !! smoothed over 6 and 3 dl to one that is not: without bias at a cusp, on a plateau, and beside walls.
+            !! Single grains scatter it by some 0.3 dl. Of a deposit too thin for that, and by itself in space, the
+            !! highest of gp_get_surface
+        real(c_double) :: peak_height
+            !! m, highest point of its surface: x, and y (an absolute coordinate). Extrapolated from the surface
+            !! smoothed over 6 and 3 dl to one that is not: without bias at a cusp, on a plateau, and beside walls.
+            !! Single grains scatter it by some 0.3 dl. Of a deposit too thin for that, and by itself in space, the
+            !! highest of gp_get_surface
         real(c_double) :: max_pressure !! Pa
         integer(c_int32_t) :: at_rest
             !! 1: the material has come to rest: the kinetic energy is below 1e-6 of the scene's energy scale, the
             !! plastic power of the last step would dissipate less than 1e-4 of it in the scene's free-fall time, and no
             !! more than 1 % of the mass is accelerated by more than 0.05 g, on average over some 20 steps (single
-            !! grains may tremble on a plate; of fewer than 200 particles two, but no more than 5 % of the mass). The
+            !! grains may tremble on a plate; of fewer than 200 particles two, but no more than 5 % of the mass). And no
+            !! plate has motion of its own left (a velocity, also of gp_set_plate_velocity, or knots that displace it
+            !! further) that is within the horizon of the box around all particles, or will come so near on its way, as
+            !! straight lines between here and the farthest places that it comes to have it; a plate under a load there
+            !! rests itself: its kinetic energy is below the same 1e-6, and the material bears its load within 5 %. The
             !! energy scale is the largest of the initial energy of the ledger and the largest kinetic energy so far
         integer(c_int64_t) :: collisions !! colliding pairs so far ([1] 2.9), each step's counted anew
         real(c_double) :: wall_seconds !! s of wall-clock time inside the steps so far
@@ -311,7 +334,9 @@ module granperi_raw
         real(c_double) :: penalty_dissipated
             !! J/m, the part of dissipated that the zero-energy penalty took, and with GP_STRESS_IMPLICIT the like of it
             !! in the solve
-        real(c_double) :: wall_dissipated !! J/m, the part of the extrapolation at plates, of either sign
+        real(c_double) :: wall_dissipated
+            !! J/m, the part taken at plates beyond the material's own: by the extrapolation, of either sign, and by the
+            !! friction of rough plates
         real(c_double) :: diffusion_dissipated !! J/m, the part that density diffusion took
         real(c_double) :: bulk_dissipated !! J/m, the part that the bulk viscosity took
         real(c_double) :: collision_dissipated !! J/m, the part that collisions took
@@ -329,6 +354,32 @@ module granperi_raw
             !! s, the largest time_step that is stable for this scene: for waves, loaded plates and the coefficients
             !! that damp, not for the flow
         real(c_double) :: max_compression !! largest density over the material's own so far, less 1
+        real(c_double) :: spacing_dissipated
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
+        real(c_double) :: x_q01
+        real(c_double) :: x_q05
+        real(c_double) :: x_q25
+        real(c_double) :: x_q50
+        real(c_double) :: x_q75
+        real(c_double) :: x_q95
+        real(c_double) :: x_q99
+        real(c_double) :: centre_x !! m, centre of mass
+        real(c_double) :: centre_y !! m, centre of mass
+        real(c_double) :: detached
+            !! share of the mass outside of the connected deposit (of x_left), 0 .. 1: what x_left, x_right and the peak
+            !! do not know of
+        real(c_double) :: volume_drift
+            !! mean number density where the material flows over that at the start, less 1: above 0 it has lost volume,
+            !! whatever its density says. Number density: sum of (1 - r^2 / R^2)^2 over a particle and its neighbours
+            !! within the horizon R, ghosts behind plates included. Flows: at yield, under pressure, and sheared by more
+            !! than 0.01 in the scene's free-fall time. Only particles whose horizon is full count (a neighbour in each
+            !! eighth of its outermost 1.25 dl), so free surfaces have no part in it; at the start all of these, of the
+            !! lattice if there are none. 0 where nothing flows. Layers that keep their height stay within .01; what
+            !! topples and spreads opens up, by some 0.5 dl / height. Above .02 gp_set_log warns
     end type
 
     type, bind(c) :: gp_load
@@ -536,11 +587,12 @@ module granperi_raw
         !> the first step this is GP_E_ARGUMENT: the sound_speed is wrong for the scene. It is found before anything
         !> moves, and the step is undone: fields, their order, clock, energies, plates and loads have the bits of the
         !> last good step. But in a periodic scene particles that have just returned into the period stay there and the
-        !> order is new, and GP_FIELD_NUMBER_DENSITY may differ by rounding. With gp_config.retry_halvings a step that
-        !> diverges is undone and taken as two steps of half its size, one after the other, each of which is halved
-        !> likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the callback and
-        !> the output, with GP_DT_RETRY in gp_state.dt_reason; what is undone nobody sees. After the two halves the size
-        !> is chosen as always. Speeds that ask for too small a step are not retried: the step begins with them.
+        !> order is new, GP_FIELD_NUMBER_DENSITY may differ by rounding, and gp_state.volume_drift by the ghosts that
+        !> are seen anew (by some .001). With gp_config.retry_halvings a step that diverges is undone and taken as two
+        !> steps of half its size, one after the other, each of which is halved likewise if it diverges, up to that many
+        !> times. Each of them is a whole step to the counter, the callback and the output, with GP_DT_RETRY in
+        !> gp_state.dt_reason; what is undone nobody sees. After the two halves the size is chosen as always. Speeds
+        !> that ask for too small a step are not retried: the step begins with them.
         function gp_step(sim, n) bind(c, name="gp_step") result(answer)
             import
             type(c_ptr), value :: sim
@@ -573,7 +625,9 @@ module granperi_raw
         !> thinner than 3 spacings, a time step beyond the stable limit. Later: a step taken anew, compression above 3 %
         !> (not of the schemes of [1]), a plate in reach of material at more than 0.3 sound speeds, and, looked at every
         !> 64 steps, a particle behind a plate, more than 10 % of the dissipation by the zero-energy penalty, an energy
-        !> error above 2 % of the largest energy in the ledger (these two not of the schemes of [1]).
+        !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
+        !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
+        !> the schemes of [1]).
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim
@@ -602,7 +656,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The state at this instant; state->struct_size has to be set.
+        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
@@ -610,9 +664,22 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> The clock alone, which costs nothing: *time (s), *dt (s, of the last step; 0 before the first) and *step
+        !> (steps taken) as in gp_state. Any of the pointers may be NULL.
+        function gp_get_clock(sim, time, dt, step) bind(c, name="gp_get_clock") result(answer)
+            import
+            type(c_ptr), value :: sim
+            real(c_double), intent(inout), optional :: time(*)
+            real(c_double), intent(inout), optional :: dt(*)
+            integer(c_int64_t), intent(inout), optional :: step
+            integer(c_int32_t) :: answer
+        end function
+
         !> Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction
-        !> (radius 2 dl) is 1/2, or half of the largest one at x[k] where that stays below 0.9 (beside walls, at
-        !> fronts); 0 outside the fronts. x, height: shape (n), m. n >= 0.
+        !> (radius 2 dl) is 1/2, or half of the largest one at x[k] where that stays below 0.9 (at fronts); 0 outside
+        !> the fronts. Beside plates the material counts as mirrored in them, and that behind them does not count. The
+        !> smoothing takes half a dl times the slope off a cusp, also off one that a wall makes of a slope. x, height:
+        !> shape (n), m. n >= 0.
         function gp_get_surface(sim, n, x, height) bind(c, name="gp_get_surface") result(answer)
             import
             type(c_ptr), value :: sim
@@ -669,11 +736,11 @@ module granperi_raw
         !> before. A program that is killed may leave the part, to be deleted. After GP_E_IO (disk full, no such
         !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. Memory:
         !> about twice the size of the file, 200 to 300 bytes per particle. gp_load refuses a file that is cut off,
-        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer format: GP_E_VERSION; *sim is
-        !> then NULL. A checkpoint is for the version of the library that wrote it; another one may load it, if it has
-        !> the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5. C has one
-        !> name space for types and functions, and gp_load is also the type above: hence a macro over the function
-        !> gp_load_file (binaries also export it as gp_load).
+        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another format (0.1 wrote 1, this
+        !> version 2): GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;
+        !> another one may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED
+        !> in a build without HDF5. C has one name space for types and functions, and gp_load is also the type above:
+        !> hence a macro over the function gp_load_file (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim

@@ -1,6 +1,7 @@
 !> What a simulation can be asked, and its files.
 submodule(granperi_simulation:granperi_running) granperi_reading
     use granperi_raw, only: c_plan_entry => gp_plan_entry, c_get_state => gp_get_state, &
+                            c_get_clock => gp_get_clock, &
                             c_get_particles => gp_get_particles, c_copy_field => gp_copy_field, &
                             c_get_surface => gp_get_surface, c_get_interface => gp_get_interface, &
                             c_get_plate_load => gp_get_plate_load, c_get_plan => gp_get_plan, c_save => gp_save, &
@@ -14,6 +15,22 @@ contains
         if (is_missing("state", self, status, message)) return
         read%struct_size = int(c_sizeof(read), c_int32_t)
         call report("state", c_get_state(self%handle, read), status, message)
+    end procedure
+
+    module procedure clock
+        real(c_double) :: seconds(1), length(1)
+        integer(c_int64_t) :: count
+        integer(c_int32_t) :: answer
+        seconds = 0
+        length = 0
+        count = 0
+        if (.not. is_missing("clock", self, status, message)) then
+            answer = c_get_clock(self%handle, seconds, length, count)
+            call report("clock", answer, status, message)
+        end if
+        if (present(time)) time = seconds(1)
+        if (present(dt)) dt = length(1)
+        if (present(step)) step = count
     end procedure
 
     module procedure particles

@@ -22,7 +22,7 @@ module granperi_simulation
         procedure, public :: create, destroy, is_created
         procedure, public :: add_material, add_column, add_particles, add_plate, set_plate_velocity
         procedure, public :: run, set_callback, remove_callback, set_log, remove_log
-        procedure, public :: state, particles, is_current, copy, copy_field, surface, interface_between, plate_load, plan
+        procedure, public :: state, clock, particles, is_current, copy, copy_field, surface, interface_between, plate_load, plan
         procedure, public :: save => save_file, load => load_file, output_open, output_write, output_close
         generic, public :: step => step_int32, step_int64
         procedure, private :: step_int32, step_int64
@@ -224,6 +224,15 @@ module granperi_simulation
             character(*), intent(out), optional :: message
             type(gp_state) :: read
         end function
+
+        !> The clock alone, at no cost: time (s), dt (s, of the last step; 0 before the first), step (steps taken).
+        module subroutine clock(self, time, dt, step, status, message)
+            class(gp_simulation), intent(in) :: self
+            real(c_double), intent(out), optional :: time, dt
+            integer(c_int64_t), intent(out), optional :: step
+            integer(c_int32_t), intent(out), optional :: status
+            character(*), intent(out), optional :: message
+        end subroutine
 
         !> The library's own arrays of shape (n), not copied, in its own order, which changes: use id. fields:
         !> GP_FIELD_... added up, else all; the pointers of others are not associated. Valid until the next call that

@@ -165,7 +165,8 @@ contains
         real(c_double), intent(in), optional :: collision_distance
             !! dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9]
         real(c_double), intent(in), optional :: zero_energy_penalty
-            !! of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
+            !! of the velocity that the gradient does not see, in rho c0 / dl; inside the yield surface at least 0.2
+            !! with GP_STRESS_ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
         real(c_double), intent(in), optional :: density_diffusion
             !! smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1 [the scheme's own: 0.2]
         real(c_double), intent(in), optional :: channel_width
@@ -282,7 +283,11 @@ contains
             !! GP_INITIAL_... [GP_INITIAL_HYDROSTATIC]. Hydrostatic: p = rho |g.n| depth below the opposite face, for
             !! each face of normal n into which gravity presses and at least half of which rests on plates or on other
             !! hydrostatic columns so borne; to it is added what rests on the opposite face: such columns, and the
-            !! normal_pressure of plates. 0 where nothing bears. No effect with GP_DENSITY_NUMBER
+            !! normal_pressure of plates. 0 where nothing bears. With GP_STRESS_ELASTIC, where one such face alone bears
+            !! and no plate loads the other: the shear stress rho g.t depth along that face too, as far as the friction
+            !! of the material and of the plates under it bears it; and where a side is free and mu_s >= 1, so that the
+            !! friction holds it, no stress across: half the pressure, the other half as deviator. No effect with
+            !! GP_DENSITY_NUMBER
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_column) :: made

@@ -6,7 +6,7 @@ import text
 PAGES = {
     "simulation": ("Simulation", ["Simulation"]),
     "scene": ("What a scene is made of", ["Config", "Material", "Column", "Plate", "Scene", "Run"]),
-    "reading": ("What is read", ["State", "History", "Load", "PlanEntry", "Particles", "View", "FieldView"]),
+    "reading": ("What is read", ["State", "Clock", "History", "Load", "PlanEntry", "Particles", "View", "FieldView"]),
     "results": ("Result files, comparison, cost",
                 ["Output", "Result", "Snapshot", "Difference", "compare", "Estimate", "estimate", "load", "has_feature"]),
     "names": ("Names of choices", ["Density", "Field", "InitialPressure", "Preset", "StepLimit", "Stress", "Wall"]),

@@ -142,8 +142,8 @@ typedef struct gp_config {
                                     reported one; with GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0
                                     [1e-6] */
     double collision_distance;   /* dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9] */
-    double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; 0: off; 0 .. 0.5
-                                    [the scheme's own: 0.02] */
+    double zero_energy_penalty;  /* of the velocity that the gradient does not see, in rho c0 / dl; inside the yield
+                                    surface at least 0.2 with GP_STRESS_ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02] */
     double density_diffusion;    /* smoothing of the density where the material flows, in c0 dl; 0: off; 0 .. 1
                                     [the scheme's own: 0.2] */
     double channel_width;        /* m, W between the side walls; 0: none. Their friction, averaged over the width, is
@@ -190,7 +190,7 @@ typedef struct gp_material {
 /* Fills *material with glass beads. size: sizeof(gp_material). */
 GP_API gp_status gp_material_init(gp_material *material, size_t size);
 
-/* The pressure with which a column begins. */
+/* The stress with which a column begins. */
 enum {
     GP_INITIAL_HYDROSTATIC = 0, /* in balance with the plates that support the column: no shock at the start */
     GP_INITIAL_NONE = 1         /* none: gravity sets in suddenly */
@@ -206,19 +206,28 @@ typedef struct gp_column {
                                  opposite face, for each face of normal n into which gravity presses and at least half of
                                  which rests on plates or on other hydrostatic columns so borne; to it is added what rests on
                                  the opposite face: such columns, and the normal_pressure of plates. 0 where nothing bears.
+                                 With GP_STRESS_ELASTIC, where one such face alone bears and no plate loads the other: the
+                                 shear stress rho g.t depth along that face too, as far as the friction of the material and
+                                 of the plates under it bears it; and where a side is free and mu_s >= 1, so that the
+                                 friction holds it, no stress across: half the pressure, the other half as deviator.
                                  No effect with GP_DENSITY_NUMBER */
 } gp_column;
 
 /* Fills *column with zeros: the rectangle has to be set. size: sizeof(gp_column). */
 GP_API gp_status gp_column_init(gp_column *column, size_t size);
 
-/* What the wall does to the tangential velocity. */
+/* What the wall does to the tangential velocity. The traction along a wall is a law of friction: it holds what it can, never
+ * drives, and is never more than the material itself bears there, mu(I) of the rate at the wall's surface times the wall's normal
+ * force on each particle (with GP_STRESS_IMPLICIT the shear at a rough wall is part of the implicit solve). */
 enum {
-    GP_WALL_NO_SLIP = 0,   /* the material sticks to a rough wall as far as its own friction allows */
+    GP_WALL_NO_SLIP = 0,   /* a rough wall: the material's own friction */
     GP_WALL_FREE_SLIP = 1, /* no shear traction. The forces reach over the horizon: beside a pressure that changes along
                               the plate, a share of the order of dl / extent of the scene still acts along it */
-    GP_WALL_COULOMB = 2    /* tangential traction up to wall_mu times the normal one */
+    GP_WALL_COULOMB = 2    /* up to wall_mu times the normal traction, or what the material bears, if that is less */
 };
+
+/* Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn by 50 degrees
+ * at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its own. */
 
 typedef struct gp_plate {
     uint32_t struct_size;
@@ -292,7 +301,8 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
  *     GP_E_ARGUMENT: the sound_speed is wrong for the scene.
  * It is found before anything moves, and the step is undone: fields, their order, clock, energies, plates and loads have the
  * bits of the last good step. But in a periodic scene particles that have just returned into the period stay there and the
- * order is new, and GP_FIELD_NUMBER_DENSITY may differ by rounding.
+ * order is new, GP_FIELD_NUMBER_DENSITY may differ by rounding, and gp_state.volume_drift by the ghosts that are seen anew
+ * (by some .001).
  *
  * With gp_config.retry_halvings a step that diverges is undone and taken as two steps of half its size, one after the other,
  * each of which is halved likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the
@@ -320,8 +330,9 @@ typedef void (*gp_log)(void *user, int32_t level, const char *text);
  * can reach, particles within a quarter spacing of a plate's line, a column thinner than 3 spacings, a time step beyond the
  * stable limit. Later: a step taken anew, compression above 3 % (not of the schemes of [1]), a plate in reach of material at
  * more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, more than 10 % of the dissipation by
- * the zero-energy penalty, an energy error above 2 % of the largest energy in the ledger (these two not of the schemes of
- * [1]). */
+ * the zero-energy penalty, an energy error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that
+ * lie more than 2 % closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three
+ * not of the schemes of [1]). */
 GP_API gp_status gp_set_log(gp_sim *sim, gp_log log, void *user);
 
 /* ------------------------------------------------------------------------------------------------ reading */
@@ -406,13 +417,22 @@ typedef struct gp_state {
     double max_speed, rms_speed;   /* m/s */
     double x_left, x_right;        /* m, fronts of the connected deposit: the largest set of particles each within
                                       1.6 dl of another, half a spacing added */
-    double peak_x, peak_height;    /* m, highest point of its surface: x, and y (an absolute coordinate) */
+    double peak_x, peak_height;    /* m, highest point of its surface: x, and y (an absolute coordinate). Extrapolated from
+                                      the surface smoothed over 6 and 3 dl to one that is not: without bias at a cusp, on a
+                                      plateau, and beside walls. Single grains scatter it by some 0.3 dl. Of a deposit too
+                                      thin for that, and by itself in space, the highest of gp_get_surface */
     double max_pressure;           /* Pa */
     int32_t at_rest;               /* 1: the material has come to rest: the kinetic energy is below 1e-6 of the scene's
                                       energy scale, the plastic power of the last step would dissipate less than 1e-4 of it
                                       in the scene's free-fall time, and no more than 1 % of the mass is accelerated by
                                       more than 0.05 g, on average over some 20 steps (single grains may tremble on a
                                       plate; of fewer than 200 particles two, but no more than 5 % of the mass).
+                                      And no plate has motion of its own left (a velocity, also of
+                                      gp_set_plate_velocity, or knots that displace it further) that is within the horizon
+                                      of the box around all particles, or will come so near on its way, as straight lines
+                                      between here and the farthest places that it comes to have it; a plate under a load
+                                      there rests itself: its kinetic energy is below the same 1e-6, and the material bears
+                                      its load within 5 %.
                                       The energy scale is the largest of the initial energy of the ledger and the
                                       largest kinetic energy so far */
     int64_t collisions;            /* colliding pairs so far ([1] 2.9), each step's counted anew */
@@ -420,7 +440,8 @@ typedef struct gp_state {
     double sound_speed;            /* m/s, c0 in use */
     double penalty_dissipated;     /* J/m, the part of dissipated that the zero-energy penalty took, and with
                                       GP_STRESS_IMPLICIT the like of it in the solve */
-    double wall_dissipated;        /* J/m, the part of the extrapolation at plates, of either sign */
+    double wall_dissipated;        /* J/m, the part taken at plates beyond the material's own: by the extrapolation, of either
+                                      sign, and by the friction of rough plates */
     double diffusion_dissipated;   /* J/m, the part that density diffusion took */
     double bulk_dissipated;        /* J/m, the part that the bulk viscosity took */
     double collision_dissipated;   /* J/m, the part that collisions took */
@@ -436,13 +457,39 @@ typedef struct gp_state {
     double dt_limit;               /* s, the largest time_step that is stable for this scene: for waves, loaded plates and the
                                       coefficients that damp, not for the flow */
     double max_compression;        /* largest density over the material's own so far, less 1 */
+    double spacing_dissipated;     /* J/m, the part that making the density follow the spacing of the particles took: below 0,
+                                      it compresses what flows */
+    /* Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached grains too.
+     * Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its marks at .01 L, .05 L,
+     * ...; where a mark falls into a gap it is the gap's middle. In a periodic scene what reaches beyond an end of the
+     * period counts at the other. Unlike the fronts x_left and x_right, which single grains set, they converge with the
+     * spacing. 0 without particles, as the next four */
+    double x_q01, x_q05, x_q25, x_q50, x_q75, x_q95, x_q99;
+    double centre_x, centre_y;     /* m, centre of mass */
+    double detached;               /* share of the mass outside of the connected deposit (of x_left), 0 .. 1: what x_left,
+                                      x_right and the peak do not know of */
+    double volume_drift;           /* mean number density where the material flows over that at the start, less 1: above 0 it
+                                      has lost volume, whatever its density says. Number density: sum of
+                                      (1 - r^2 / R^2)^2 over a particle and its neighbours within the horizon R, ghosts
+                                      behind plates included. Flows: at yield, under pressure, and sheared by more than
+                                      0.01 in the scene's free-fall time. Only particles whose horizon is full count (a
+                                      neighbour in each eighth of its outermost 1.25 dl), so free surfaces have no part in
+                                      it; at the start all of these, of the lattice if there are none. 0 where nothing
+                                      flows. Layers that keep their height stay within .01; what topples and spreads opens
+                                      up, by some 0.5 dl / height. Above .02 gp_set_log warns */
 } gp_state;
 
-/* The state at this instant; state->struct_size has to be set. */
+/* The state at this instant; state->struct_size has to be set. It costs about as much as a time step. */
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
 
+/* The clock alone, which costs nothing: *time (s), *dt (s, of the last step; 0 before the first) and *step (steps taken) as in
+ * gp_state. Any of the pointers may be NULL. */
+GP_API gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step);
+
 /* Free surface of the connected deposit: height[k] is the largest y at x[k] where the smoothed volume fraction (radius 2 dl)
- * is 1/2, or half of the largest one at x[k] where that stays below 0.9 (beside walls, at fronts); 0 outside the fronts. x, height: shape (n), m. n >= 0. */
+ * is 1/2, or half of the largest one at x[k] where that stays below 0.9 (at fronts); 0 outside the fronts. Beside plates the
+ * material counts as mirrored in them, and that behind them does not count. The smoothing takes half a dl times the slope off
+ * a cusp, also off one that a wall makes of a slope. x, height: shape (n), m. n >= 0. */
 GP_API gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height);
 
 /* Interface of two columns: x[k] separates the particles of `left` from those of `right` in the row of height
@@ -493,8 +540,8 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
  * GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or be saved
  * elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle.
  *
- * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in a newer
- * format: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
+ * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another
+ * format (0.1 wrote 1, this version 2): GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
  * it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5.
  *
  * C has one name space for types and functions, and gp_load is also the type above: hence a macro over the function

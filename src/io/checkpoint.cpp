@@ -90,10 +90,13 @@ void write_scene(CheckpointWriter &file, const Scene &scene) {
 
 void write_world(CheckpointWriter &file, const World &world) {
     exchange_clock_and_sums(file, world);
-    ListTable lists{world.lists_valid, world.skin, world.shifted, {}, {}};
-    for (const Vector &origin : world.list_origin.plates) {
-        lists.plate_x.push_back(origin.x());
-        lists.plate_y.push_back(origin.y());
+    ListTable lists{world.lists_valid, world.skin, world.shifted, {}, {}, {}, {}, {}};
+    for (const Plate::Motion &motion : world.list_origin.plates) {
+        lists.plate_x.push_back(motion.origin.x());
+        lists.plate_y.push_back(motion.origin.y());
+        lists.plate_driven.push_back(motion.driven);
+        lists.plate_vx.push_back(motion.driven_velocity.x());
+        lists.plate_vy.push_back(motion.driven_velocity.y());
     }
     exchange_lists(file, lists, world);
     exchange_particles(file, world.particles, world.listed);
@@ -275,14 +278,16 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
     check.not_negative("time_left", c.time_left);
     check.require(c.reason >= GP_DT_NONE && c.reason <= GP_DT_RETRY, "no such reason of a time step");
     const Ledger &l = w.ledger;
-    for (const double value : {l.initial, l.reference_height, l.dissipated, l.penalty, l.walls, l.diffusion, l.bulk,
-                               l.collisions, l.side_walls, l.plate_work, l.largest_kinetic, l.wound})
+    for (const double value : {l.initial, l.reference_height, l.dissipated, l.penalty, l.walls, l.diffusion, l.spacing,
+                               l.bulk, l.collisions, l.side_walls, l.plate_work, l.largest_kinetic, l.wound})
         check.finite("ledger", value);
     for (const int64_t number : {c.step, w.collisions, w.retries, w.viscous.newton, w.viscous.linear,
                                  w.viscous.failures, static_cast<int64_t>(w.viscous.last)})
         check.require(number >= 0 && number < most_counted, "a count out of bounds");
     for (const double value : {w.max_compression, w.plastic_power, w.unbalanced_share})
         check.finite("sums", value);
+    check.finite("packing_at_start", w.packing_at_start);
+    check.require(w.packing_at_start > 0, "packing_at_start: not above 0");
     check.not_negative("velocity_span", w.velocity_span);
     check.not_negative("fastest", w.fastest);
 }
@@ -300,6 +305,11 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
     check.same_size("lists/y", origin.y, n);
     check.same_size("lists/plate_x", t.plate_x, plates);
     check.same_size("lists/plate_y", t.plate_y, plates);
+    check.same_size("lists/plate_driven", t.plate_driven, plates);
+    check.same_size("lists/plate_vx", t.plate_vx, plates);
+    check.same_size("lists/plate_vy", t.plate_vy, plates);
+    check.all_finite("lists/plate_vx", t.plate_vx);
+    check.all_finite("lists/plate_vy", t.plate_vy);
     const double farthest = 1e15 * spacing; // beyond, lattice points behind a plate cannot be counted
     for (const auto *array : {&t.plate_x, &t.plate_y})
         for (const double value : *array)
@@ -314,6 +324,8 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
     for (std::size_t k = 0; k < plates; ++k) {
         Plate::Motion motion;
         motion.origin = {t.plate_x[k], t.plate_y[k]};
+        motion.driven = t.plate_driven[k] != 0;
+        motion.driven_velocity = {t.plate_vx[k], t.plate_vy[k]};
         w.walls.plates[k].set_motion(motion);
     }
     std::copy(origin.x.begin(), origin.x.end(), w.particles.x.begin());

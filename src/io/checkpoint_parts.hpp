@@ -118,6 +118,7 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
     file.value("penalty", w.ledger.penalty);
     file.value("walls", w.ledger.walls);
     file.value("diffusion", w.ledger.diffusion);
+    file.value("spacing", w.ledger.spacing);
     file.value("bulk", w.ledger.bulk);
     file.value("collisions", w.ledger.collisions);
     file.value("side_walls", w.ledger.side_walls);
@@ -127,6 +128,7 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
     file.group("/so_far");
     file.value("collisions", w.collisions);
     file.value("max_compression", w.max_compression);
+    file.value("packing_at_start", w.packing_at_start);
     file.value("retries", w.retries);
     file.value("plastic_power", w.plastic_power);
     file.value("unbalanced_share", w.unbalanced_share);
@@ -144,6 +146,8 @@ struct ListTable {
     bool valid = false;
     double skin = 0, shifted = 0;
     std::vector<double> plate_x, plate_y;
+    std::vector<int32_t> plate_driven; // by the host: which plates made one wall follows from how they move
+    std::vector<double> plate_vx, plate_vy;
 };
 
 template <class File, class Table, class W> void exchange_lists(File &file, Table &t, W &w) {
@@ -155,6 +159,9 @@ template <class File, class Table, class W> void exchange_lists(File &file, Tabl
     file.array("y", w.list_origin.y);
     file.array("plate_x", t.plate_x);
     file.array("plate_y", t.plate_y);
+    file.array("plate_driven", t.plate_driven);
+    file.array("plate_vx", t.plate_vx);
+    file.array("plate_vy", t.plate_vy);
 }
 
 // In the engine's own order, with the images across the ends of a period.

@@ -36,6 +36,7 @@ template <class Visit> void for_each_observable(const gp_state &s, const Visit &
     visit("penalty_dissipated", "J m-1", s.penalty_dissipated);
     visit("wall_dissipated", "J m-1", s.wall_dissipated);
     visit("diffusion_dissipated", "J m-1", s.diffusion_dissipated);
+    visit("spacing_dissipated", "J m-1", s.spacing_dissipated);
     visit("bulk_dissipated", "J m-1", s.bulk_dissipated);
     visit("collision_dissipated", "J m-1", s.collision_dissipated);
     visit("channel_dissipated", "J m-1", s.channel_dissipated);
@@ -48,6 +49,18 @@ template <class Visit> void for_each_observable(const gp_state &s, const Visit &
     visit("retries", "", static_cast<double>(s.retries));
     visit("dt_limit", "s", s.dt_limit);
     visit("max_compression", "", s.max_compression);
+    visit("spacing_dissipated", "J m-1", s.spacing_dissipated);
+    visit("x_q01", "m", s.x_q01);
+    visit("x_q05", "m", s.x_q05);
+    visit("x_q25", "m", s.x_q25);
+    visit("x_q50", "m", s.x_q50);
+    visit("x_q75", "m", s.x_q75);
+    visit("x_q95", "m", s.x_q95);
+    visit("x_q99", "m", s.x_q99);
+    visit("centre_x", "m", s.centre_x);
+    visit("centre_y", "m", s.centre_y);
+    visit("detached", "", s.detached);
+    visit("volume_drift", "", s.volume_drift);
 }
 
 inline std::vector<Observable> state_observables() {

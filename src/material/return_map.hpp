@@ -47,6 +47,11 @@ template <class Number> struct ReturnMapOf {
         return 2.0 * h / (b + root(where(discriminant > 0.0, discriminant)));
     }
 
+    // mu(I) at the shear rate 2 |gamma|, 1/s.
+    GP_INLINE Number friction(const Number &rate, const Number &pressure) const {
+        return rate > 0 ? mu_s + (mu_2 - mu_s) * rate / (rate + rate_factor * root(pressure)) : mu_s;
+    }
+
     // Is it yielding? What returned to mu_s p, as all that yields where mu_2 = mu_s, is there but for rounding.
     GP_INLINE auto at_yield(const Number &equivalent, const Number &pressure) const {
         return equivalent >= (1.0 - 1e-12) * mu_s * pressure;

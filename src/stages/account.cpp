@@ -96,6 +96,7 @@ template <bool Adjoint> void close_books(World &world) {
         total.plastic += block.plastic;
         total.bulk += block.bulk;
         total.diffused += block.diffused;
+        total.spaced += block.spaced;
         total.released += block.released;
         total.total_power += block.total_power;
         total.internal_power += block.internal_power;
@@ -112,12 +113,13 @@ template <bool Adjoint> void close_books(World &world) {
 
     Ledger &ledger = world.ledger;
     ledger.plate_work -= dt * plate_power;
-    ledger.dissipated +=
-        total.plastic + total.bulk + total.diffused + total.collision_loss + total.side_walls + penalty + lost_at_walls;
+    ledger.dissipated += total.plastic + total.bulk + total.diffused + total.spaced + total.collision_loss +
+                         total.side_walls + penalty + lost_at_walls;
     ledger.penalty += penalty;
     ledger.walls += lost_at_walls;
     ledger.bulk += total.bulk;
     ledger.diffusion += total.diffused;
+    ledger.spacing += total.spaced;
     ledger.collisions += total.collision_loss;
     ledger.side_walls += total.side_walls;
     ledger.largest_kinetic = std::max(ledger.largest_kinetic, total.kinetic);

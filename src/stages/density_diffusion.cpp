@@ -15,7 +15,6 @@
 #include "parallel.hpp"
 #include "stages/density_exchange.hpp"
 #include "stages/stages.hpp"
-#include "stages/yield_pressure.hpp"
 
 namespace gp::stages {
 
@@ -26,11 +25,6 @@ ExchangeView prepare_exchange(World &world) {
     const double first = c.materials[c.body_material[0]].density;
     const bool one = std::all_of(c.body_material.begin(), c.body_material.end(),
                                  [&](int32_t material) { return c.materials[material].density == first; });
-    const double *yield_pressure = p.pressure.data();
-    if (c.scheme == Scheme::implicit) { // near plates it yields by another: what bears more than mu p there still rests
-        find_yield_pressure(world);
-        yield_pressure = world.viscous.pressure.data();
-    }
     // sigma K^-1 is made later in the step: until then it holds what is needed here.
     Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.cyx, &inverse_rest = p.cyy;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
@@ -42,8 +36,6 @@ ExchangeView prepare_exchange(World &world) {
                 rest[i] = m.density;
                 inverse_rest[i] = 1.0 / m.density;
             }
-            const bool flows = m.map.at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), yield_pressure[i]);
-            p.flowing[i] = flows ? 1.0 : 0.0;
         }
     });
     world.images.copy({&excess, &bears, &p.flowing, &p.density});

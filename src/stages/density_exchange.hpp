@@ -16,13 +16,6 @@ struct ExchangeView {
     double largest_pace;                 // sum of w
     bool one_density;
     double *change;
-
-    GP_INLINE bool flows(int64_t first, int64_t last) const {
-        double any = 0;
-        for (int64_t i = first; i < last; ++i)
-            any += flowing[i];
-        return any > 0;
-    }
 };
 
 // Fills what neighbours are read of.

@@ -95,15 +95,14 @@ struct WallView {
     double inverse_radius;
 };
 
-// Force density of one plate's ghosts on a particle with A = sigma K^-1, the particle's half of the penalty towards them
-// included, and the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r.
-GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &l, double half_penalty,
-                             Contact &contact) {
+// Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and
+// the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
+GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &seen, Contact &contact) {
     const int64_t i = contact.particle;
     const double xi = v.x[i], yi = v.y[i];
-    double wx = 0, wy = 0, tx = 0, ty = 0, gu = 0, gv = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
+    double wx = 0, wy = 0, tx = 0, ty = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
     const double ui = v.vx[i], vi = v.vy[i];
-#pragma omp simd reduction(+ : wx, wy, tx, ty, gu, gv, gxx, gxy, gyx, gyy)
+#pragma omp simd reduction(+ : wx, wy, tx, ty, gxx, gxy, gyx, gyy)
     for (int64_t k = contact.begin; k < contact.end; ++k) {
         const int32_t g = v.index[k];
         const double dx = v.gx[g] - xi, dy = v.gy[g] - yi;
@@ -114,16 +113,14 @@ GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &l
         tx += v.axx[g] * wdx + v.axy[g] * wdy;
         ty += v.axy[g] * wdx + v.ayy[g] * wdy;
         const double du = v.gvx[g] - ui, dv = v.gvy[g] - vi;
-        gu += w * du;
-        gv += w * dv;
         gxx += du * wdx;
         gxy += du * wdy;
         gyx += dv * wdx;
         gyy += dv * wdy;
     }
-    contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx + half_penalty * (gu - l(0, 0) * wx - l(0, 1) * wy);
-    contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty + half_penalty * (gv - l(1, 0) * wx - l(1, 1) * wy);
-    contact.ghost_power = a(0, 0) * gxx + a(0, 1) * gxy + a(1, 0) * gyx + a(1, 1) * gyy;
+    contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx;
+    contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty;
+    contact.ghost_power = seen(0, 0) * gxx + seen(0, 1) * gxy + seen(1, 0) * gyx + seen(1, 1) * gyy;
 }
 
 GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
@@ -135,18 +132,17 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
         Tensor a;
         a << p.cxx[i], p.cxy[i], p.cyx[i], p.cyy[i];
         const double own_half = half > 0 ? half * p.stressed[i] : 0.0;
-        Tensor l;
-        l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
-        a += own_half * l; // C without the penalty's part
+        a += own_half * inner_gradient(world, i); // C without the penalty's part
+        // No shear traction through the surface: it is the stage wall_friction's, or the implicit solve's. Where the plate is
+        // not rough, the gradient leaves out the same component.
         const Plate &plate = world.walls.plates[contact.plate];
-        if (plate.spec().friction != GP_WALL_NO_SLIP) {
-            // No shear traction through the surface; the gradient leaves out the same component.
-            const Segment &s = plate.segment();
-            a -= s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
-        }
-        contact_force(v, a, l, own_half, contact);
+        const Segment &s = plate.segment();
+        const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
+        const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
+        const bool sticks = rough && by_number_density(world.constants.scheme);
+        contact_force(v, sticks ? a : through, rough ? a : through, contact);
         // A wall only pushes.
-        const Vector &n = plate.segment().normal;
+        const Vector &n = s.normal;
         const double pull = contact.force_x * n.x() + contact.force_y * n.y();
         if (pull < 0) {
             contact.force_x -= pull * n.x();

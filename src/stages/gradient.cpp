@@ -1,4 +1,5 @@
-// Shape tensor and velocity gradient of each particle; with density diffusion also its sums, over the same pairs.
+// Shape tensor and velocity gradient of each particle; where it flows also the number density, and with density diffusion
+// the sums of that, over the same pairs.
 #include "lanes.hpp"
 #include "operators.hpp"
 #include "parallel.hpp"
@@ -15,22 +16,25 @@ struct View {
     Clusters clusters;
     const double *x, *y, *vx, *vy;
     const Plate *plates;
+    Contact *contacts;
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, lattice_moment;
     double *lxx, *lxy, *lyx, *lyy, *ixx, *ixy, *iyy;
     double *carried; // NULL: no plates
+    const double *flowing;
+    double *crowding;
     ExchangeView exchange;
 };
 
 struct LaneMoments {
-    Lanes kxx{}, kxy{}, kyy{}, mxx{}, mxy{}, myx{}, myy{};
+    Lanes n{}, kxx{}, kxy{}, kyy{}, mxx{}, mxy{}, myx{}, myy{};
 
     GP_INLINE Moments of(int lane) const {
-        return {kxx[lane], kxy[lane], kyy[lane], mxx[lane], mxy[lane], myx[lane], myy[lane]};
+        return {n[lane], kxx[lane], kxy[lane], kyy[lane], mxx[lane], mxy[lane], myx[lane], myy[lane]};
     }
 };
 
-template <bool Partly, class Exchange>
+template <bool Partly, bool Flows, class Exchange>
 GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &places, LaneMoments &sum,
                              Exchange &exchange) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
@@ -46,6 +50,8 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
             w = v.clusters.seen(w, k);
         const Lanes wx = w * dx, wy = w * dy;
         const Lanes du = vx[j] - ui, dv = vy[j] - vi;
+        if (Flows)
+            m.n += w;
         m.kxx += wx * dx;
         m.kxy += wx * dy;
         m.kyy += wy * dy;
@@ -59,13 +65,32 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
     exchange = local;
 }
 
+GP_INLINE Tensor gradient_of(const Moments &m, const SymmetricTensor &g) {
+    Tensor l;
+    l << m.mxx * g.xx + m.mxy * g.xy, m.mxx * g.xy + m.mxy * g.yy, m.myx * g.xx + m.myy * g.xy,
+        m.myx * g.xy + m.myy * g.yy;
+    return l;
+}
+
+GP_INLINE void keep_inner_gradient(const Tensor &l, Contact &first) {
+    first.inner_xx = l(0, 0);
+    first.inner_xy = l(0, 1);
+    first.inner_yx = l(1, 0);
+    first.inner_yy = l(1, 1);
+}
+
 GP_INLINE void finish(const View &v, int64_t i, Moments m) {
     const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
-    for (const Contact &contact : v.rows.contacts_of(i)) {
+    const Rows::Run run = v.rows.contacts_of(i);
+    Contact *const first = v.contacts + (run.first - v.rows.contacts);
+    Contact *const last = v.contacts + (run.last - v.rows.contacts);
+    if (first != last)
+        keep_inner_gradient(gradient_of(m, inverse_shape(m, v.lattice_moment)), *first);
+    for (Contact *contact = first; contact != last; ++contact) {
         Moments own;
-        add_moments(own, v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
+        add_moments(own, v.rows.ghosts(*contact), Rows::ghost_count(*contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
                     v.gy, v.gvx, v.gvy, v.inverse_radius);
-        drop_wall_shear(v.plates[contact.plate], own.mxx, own.mxy, own.myx, own.myy);
+        drop_wall_shear(v.plates[contact->plate], own.mxx, own.mxy, own.myx, own.myy);
         m += own;
     }
     SymmetricTensor g = inverse_shape(m, v.lattice_moment);
@@ -75,51 +100,56 @@ GP_INLINE void finish(const View &v, int64_t i, Moments m) {
     v.ixx[i] = g.xx;
     v.ixy[i] = g.xy;
     v.iyy[i] = g.yy;
-    v.lxx[i] = m.mxx * g.xx + m.mxy * g.xy;
-    v.lxy[i] = m.mxx * g.xy + m.mxy * g.yy;
-    v.lyx[i] = m.myx * g.xx + m.myy * g.xy;
-    v.lyy[i] = m.myx * g.xy + m.myy * g.yy;
+    const Tensor l = gradient_of(m, g);
+    v.lxx[i] = l(0, 0);
+    v.lxy[i] = l(0, 1);
+    v.lyx[i] = l(1, 0);
+    v.lyy[i] = l(1, 1);
+    v.crowding[i] = v.flowing[i] > 0 ? m.n - 1 : 0.0; // without itself
 }
 
-template <class Exchange> GP_INLINE void cluster_gradient(const View &v, int64_t cluster) {
+template <bool Flows, class Exchange> GP_INLINE void cluster_gradient(const View &v, int64_t cluster) {
     const int64_t first = v.clusters.first[cluster], last = v.clusters.first[cluster + 1];
     const LanePlaces places(first, last);
     LaneMoments sum;
     Exchange exchange(v.exchange, places);
     if (v.clusters.is_partly_seen(cluster))
-        add_neighbors<true>(v, cluster, places, sum, exchange);
+        add_neighbors<true, Flows>(v, cluster, places, sum, exchange);
     else
-        add_neighbors<false>(v, cluster, places, sum, exchange);
+        add_neighbors<false, Flows>(v, cluster, places, sum, exchange);
     for (int64_t i = first; i < last; ++i) {
         finish(v, i, sum.of(static_cast<int>(i - first)));
         exchange.finish(v.exchange, i, static_cast<int>(i - first));
     }
 }
 
-GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
-    for (int64_t c = begin; c < end; ++c)
-        cluster_gradient<NoExchange>(v, c);
+template <class Exchange> GP_INLINE void gradient_of_clusters(const View &v, int64_t begin, int64_t end) {
+    for (int64_t c = begin; c < end; ++c) {
+        double flows = 0;
+        for (int64_t i = v.clusters.first[c]; i < v.clusters.first[c + 1]; ++i)
+            flows += v.flowing[i];
+        if (flows > 0)
+            cluster_gradient<true, Exchange>(v, c);
+        else
+            cluster_gradient<false, NoExchange>(v, c);
+    }
 }
 
-template <bool OneDensity> GP_INLINE void exchange_where_it_flows(const View &v, int64_t begin, int64_t end) {
-    for (int64_t c = begin; c < end; ++c)
-        if (!v.exchange.flows(v.clusters.first[c], v.clusters.first[c + 1]))
-            cluster_gradient<NoExchange>(v, c);
-        else
-            cluster_gradient<Exchange<OneDensity>>(v, c);
+GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+    gradient_of_clusters<NoExchange>(v, begin, end);
 }
 
 GP_MULTIVERSION void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
-    exchange_where_it_flows<true>(v, begin, end);
+    gradient_of_clusters<Exchange<true>>(v, begin, end);
 }
 
 GP_MULTIVERSION void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
-    exchange_where_it_flows<false>(v, begin, end);
+    gradient_of_clusters<Exchange<false>>(v, begin, end);
 }
 
 View view_of(World &world, const ExchangeView &exchange) {
     Particles &p = world.particles;
-    const Walls &w = world.walls;
+    Walls &w = world.walls;
     return {Rows(world),
             Clusters(world),
             p.x.data(),
@@ -127,6 +157,7 @@ View view_of(World &world, const ExchangeView &exchange) {
             p.vx.data(),
             p.vy.data(),
             w.plates.data(),
+            w.contacts.data(),
             w.ghost_x.data(),
             w.ghost_y.data(),
             w.ghost_vx.data(),
@@ -141,6 +172,8 @@ View view_of(World &world, const ExchangeView &exchange) {
             p.gxy.data(),
             p.gyy.data(),
             p.carried.empty() ? nullptr : p.carried.data(),
+            p.flowing.data(),
+            p.crowding.data(),
             exchange};
 }
 

@@ -20,15 +20,15 @@ void pressure_over_shape(World &world) {
             const double total = pressure + bulk;
             damped -= bulk * divergence;
             internal -= total * divergence;
-            double share = 0;
+            Tensor drag = Tensor::Zero();
             if (penalty) {
-                p.stressed[i] = pressure > 0 && !touches_slip(world, i) ? 1.0 : 0.0;
-                share = 0.5 * world.constants.penalty * p.stressed[i];
+                p.stressed[i] = pressure > 0 ? 1.0 : 0.0;
+                drag = 0.5 * world.constants.penalty * p.stressed[i] * inner_gradient(world, i);
             }
-            p.cxx[i] = -total * p.gxx[i] - share * p.lxx[i];
-            p.cxy[i] = -total * p.gxy[i] - share * p.lxy[i];
-            p.cyx[i] = -total * p.gxy[i] - share * p.lyx[i];
-            p.cyy[i] = -total * p.gyy[i] - share * p.lyy[i];
+            p.cxx[i] = -total * p.gxx[i] - drag(0, 0);
+            p.cxy[i] = -total * p.gxy[i] - drag(0, 1);
+            p.cyx[i] = -total * p.gxy[i] - drag(1, 0);
+            p.cyy[i] = -total * p.gyy[i] - drag(1, 1);
         }
         world.sums[block].bulk = p.volume * damped * dt;
         world.sums[block].internal_power = p.volume * internal;

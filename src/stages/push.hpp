@@ -19,4 +19,16 @@ inline double push_particle(Particles &p, int64_t i, double du, double dv, doubl
     return work;
 }
 
+// Gives a contact's particle the velocity change (relative to nothing: the lab's) that its plate causes in this step.
+inline void push_by_plate(World &world, const Contact &contact, const Vector &change) {
+    Particles &p = world.particles;
+    const int64_t i = contact.particle;
+    const double mass = world.material_of(i).density * p.volume;
+    world.walls.add_load(contact.plate, {p.x[i], p.y[i]}, -mass / world.clock.dt * change);
+    const double plate_power_on_material = mass * change.dot(world.walls.plates[contact.plate].velocity());
+    world.ledger.plate_work -= plate_power_on_material;
+    world.ledger.dissipated +=
+        plate_power_on_material - mass * push_particle(p, i, change.x(), change.y(), world.clock.dt);
+}
+
 } // namespace gp::stages

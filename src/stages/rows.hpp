@@ -69,9 +69,7 @@ template <class Body> void for_each_cluster_block(const World &world, const Body
 
 // A plate with its own idea of friction passes no shear: of a sum of velocity differences (x) ways to its ghosts, the
 // change along the normal of the velocity along the plate, t.M.n, is left out.
-GP_INLINE void drop_wall_shear(const Plate &plate, double &xx, double &xy, double &yx, double &yy) {
-    if (plate.spec().friction == GP_WALL_NO_SLIP)
-        return;
+GP_INLINE void drop_shear(const Plate &plate, double &xx, double &xy, double &yx, double &yy) {
     const Vector &t = plate.segment().tangent, &n = plate.segment().normal;
     const double shear = t.x() * (xx * n.x() + xy * n.y()) + t.y() * (yx * n.x() + yy * n.y());
     xx -= shear * t.x() * n.x();
@@ -79,13 +77,23 @@ GP_INLINE void drop_wall_shear(const Plate &plate, double &xx, double &xy, doubl
     yx -= shear * t.y() * n.x();
     yy -= shear * t.y() * n.y();
 }
+GP_INLINE void drop_wall_shear(const Plate &plate, double &xx, double &xy, double &yx, double &yy) {
+    if (plate.spec().friction != GP_WALL_NO_SLIP)
+        drop_shear(plate, xx, xy, yx, yy);
+}
 
-// Beside a plate along which ghosts move with the particles, the penalty towards them could drive: it is left out.
-inline bool touches_slip(const World &world, int64_t i) {
-    for (const Contact &contact : Rows(world).contacts_of(i))
-        if (world.walls.plates[contact.plate].spec().friction != GP_WALL_NO_SLIP)
-            return true;
-    return false;
+// The gradient that a particle's neighbours make without the ghosts of plates: what the zero-energy penalty, which acts
+// between particles alone, goes by. (By the gradient with ghosts it sheared layers that slide on a rough plate: the lowest rows
+// stopped, and the rows above slid on.) The first contact of a particle keeps it.
+inline Tensor inner_gradient(const World &world, int64_t i) {
+    const Particles &p = world.particles;
+    const Rows::Run contacts = Rows(world).contacts_of(i);
+    Tensor l;
+    if (contacts.first != contacts.last)
+        l << contacts.first->inner_xx, contacts.first->inner_xy, contacts.first->inner_yx, contacts.first->inner_yy;
+    else
+        l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
+    return l;
 }
 
 } // namespace gp::stages

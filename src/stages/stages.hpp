@@ -35,7 +35,9 @@ void update_images(World &world);
 
 // Ghost velocities through the plates' surfaces.
 void wall_velocity(World &world);
-// Shape tensor and velocity gradient (Jin et al. 2021, 3.11; the adjoint of 3.10).
+// Which particles flow.
+void flowing(World &world);
+// Shape tensor and velocity gradient (Jin et al. 2021, 3.11; the adjoint of 3.10), and the number density of what flows.
 void gradient(World &world);
 // Continuity and equation of state.
 void density(World &world);
@@ -43,6 +45,8 @@ void density(World &world);
 void gradient_and_exchange(World &world);
 // Optional smoothing of the density where the material flows.
 void density_diffusion(World &world);
+// Density of what flows where its particles have come closer than it says.
+void density_of_spacing(World &world);
 // Elastic trial and return map; leaves sigma K^-1.
 void stress(World &world);
 // Ghost stresses extrapolated from the particles.

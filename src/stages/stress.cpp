@@ -35,7 +35,7 @@ template <bool Penalty>
 GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     Particles &p = world.particles;
     const double dt = world.clock.dt;
-    const double half_penalty = 0.5 * world.constants.penalty;
+    const double half_penalty = 0.5 * world.constants.penalty, stiffer = world.constants.elastic_penalty;
     const double kinematic_viscosity =
         world.scene->config().bulk_viscosity * world.constants.sound_speed * world.constants.spacing;
     const bool near_plates = world.walls.in_reach();
@@ -88,16 +88,21 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         Lanes cyy = axy * gxy + ayy * gyy;
         const int64_t last = first + lane_count < end ? first + lane_count : end;
         if (Penalty) {
-            Lanes stressed = where(pressure > 0.0, Lanes{} + 1.0);
-            if (near_plates)
-                for (int64_t i = first; i < last; ++i)
-                    if (touches_slip(world, i))
-                        stressed[i - first] = 0;
+            const Lanes stressed = where(pressure > 0.0, choose(elastic, Lanes{} + stiffer, Lanes{} + 1.0));
             const Lanes share = half_penalty * stressed;
-            cxx -= share * lxx;
-            cxy -= share * lxy;
-            cyx -= share * lyx;
-            cyy -= share * lyy;
+            Lanes pxx = lxx, pxy = lxy, pyx = lyx, pyy = lyy;
+            if (near_plates && world.walls.contact_start[first] < world.walls.contact_start[last])
+                for (int64_t i = first; i < last; ++i) {
+                    const Tensor inner = inner_gradient(world, i);
+                    pxx[i - first] = inner(0, 0);
+                    pxy[i - first] = inner(0, 1);
+                    pyx[i - first] = inner(1, 0);
+                    pyy[i - first] = inner(1, 1);
+                }
+            cxx -= share * pxx;
+            cxy -= share * pxy;
+            cyx -= share * pyx;
+            cyy -= share * pyy;
             places.store(p.stressed.data(), last, stressed);
         }
         places.store(p.sxx.data(), last, after.xx);

@@ -44,8 +44,10 @@ void update_neighbors(World &world) {
     // Before the first step nothing has moved, at whatever speed: that may be infinite, which the first step refuses.
     const double shift = world.clock.dt > 0 ? world.velocity_span * world.clock.dt : 0.0;
     // The collisions at the end of this step read the lists too: its own shift counts beforehand.
-    if (world.lists_valid && world.shifted + shift <= world.skin)
+    if (world.lists_valid && world.shifted + shift <= world.skin && world.walls.chains_stand()) {
+        world.walls.face_plates(world.particles);
         return;
+    }
     world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(shift / c.spacing), thinnest_skin, thickest_skin);
     world.shifted = 0;
     if (c.period)
@@ -68,7 +70,7 @@ void make_lists(World &world) {
     origin.y.assign(p.y.begin(), p.y.begin() + p.count);
     origin.plates.clear();
     for (const Plate &plate : world.walls.plates)
-        origin.plates.push_back(plate.segment().origin);
+        origin.plates.push_back(plate.motion());
     if (c.period) {
         // Ghosts up to `radius` beyond the ends extrapolate from what is within `radius` of them.
         world.images.make(world.particles, c.period, 2 * radius);
@@ -79,7 +81,8 @@ void make_lists(World &world) {
                   world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads, world.clusters);
     if (c.scheme != Scheme::adjoint)
         find_neighbors(world.particles, world.clusters, radius, world.threads, world.neighbors);
-    world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.spacing, world.threads);
+    world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.reach, c.spacing,
+                              !by_number_density(c.scheme), world.threads);
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
     if (c.scheme == Scheme::implicit)

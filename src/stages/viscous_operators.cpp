@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "kernel.hpp"
+#include "operators.hpp"
 #include "parallel.hpp"
 #include "stages/rows.hpp"
-#include "stages/yield_pressure.hpp"
 
 namespace gp::stages {
 
@@ -18,13 +18,16 @@ struct View {
     const double *qx, *qy, *w;                   // w r and w of pairs
     const double *ghost_qx, *ghost_qy, *ghost_w; // of contacts
     const double *gxx, *gxy, *gyy;               // K^-1
+    const double *beside;
+    const double *ixx, *ixy, *iyy; // of the particles alone
 
     explicit View(const World &world)
         : rows(world), plates(world.walls.plates.data()), qx(world.viscous.pair.x.data()),
           qy(world.viscous.pair.y.data()), w(world.viscous.pair_weight.data()),
           ghost_qx(world.viscous.contact_pair.x.data()), ghost_qy(world.viscous.contact_pair.y.data()),
           ghost_w(world.viscous.contact_weight.data()), gxx(world.particles.gxx.data()),
-          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()) {}
+          gxy(world.particles.gxy.data()), gyy(world.particles.gyy.data()), beside(world.viscous.beside.data()),
+          ixx(world.viscous.inner_xx.data()), ixy(world.viscous.inner_xy.data()), iyy(world.viscous.inner_yy.data()) {}
 };
 
 GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, const double *__restrict y,
@@ -44,7 +47,8 @@ GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, con
     }
 }
 
-// A ghost's velocity is that at its mirror point, turned round. The particles' shares in it fall off so fast with their
+// A ghost's velocity is that at its mirror point, turned round along the normal: shear does not pass through the surface
+// (viscous_walls.hpp). The particles' shares in it fall off so fast with their
 // distance from the point that on a lattice the mirror particle has it all but alone: then a uniform stress is in
 // equilibrium row by row. With the wide average of the default scheme's ghosts plates drag too much (rows beside a plate
 // overtake it).
@@ -67,7 +71,6 @@ void make_ghosts(World &world) {
     v.contact_weight.resize(v.contact_pair.x.size());
     v.mirror_share.resize(static_cast<int64_t>(mirrors.of_ghost.index.size()));
     v.ghost_normal.resize(w.ghost_count);
-    v.ghost_tangential.resize(w.ghost_count);
     v.ghost_velocity.resize(w.ghost_count);
     v.ghost_force.resize(w.ghost_count);
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
@@ -80,9 +83,8 @@ void make_ghosts(World &world) {
                 v.seen_pair.x[k] = q * dx;
                 v.seen_pair.y[k] = q * dy;
             }
-            const Plate &plate = w.plates[w.ghost_plate[g]];
-            const double shift = w.ghost_shift.empty() ? 0.0 : w.ghost_shift[g];
-            const Vector mirror = Vector(w.ghost_x[g], w.ghost_y[g]) + 2 * w.ghost_depth[g] * plate.segment().normal;
+            const Vector n(w.ghost_nx[g], w.ghost_ny[g]), ghost(w.ghost_x[g], w.ghost_y[g]);
+            const Vector mirror = ghost + 2 * w.ghost_distance[g] * n;
             double sum = 0, distance = 0;
             for (int64_t k = mirrors.of_ghost.start[g]; k < mirrors.of_ghost.start[g + 1]; ++k) {
                 const int32_t i = mirrors.of_ghost.index[k];
@@ -91,14 +93,12 @@ void make_ghosts(World &world) {
                 const double share = soft * soft * soft * soft;
                 v.mirror_share[k] = share;
                 sum += share;
-                distance += share * plate.segment().distance({p.x[i] - shift, p.y[i]});
+                distance += share * (n.dot(Vector(p.x[i], p.y[i]) - ghost) - w.ghost_distance[g]);
             }
             for (int64_t k = mirrors.of_ghost.start[g]; k < mirrors.of_ghost.start[g + 1]; ++k)
                 v.mirror_share[k] /= sum;
-            const double ratio = w.ghost_depth[g] / std::max(distance / sum, least_distance * spacing);
+            const double ratio = w.ghost_distance[g] / std::max(distance / sum, least_distance * spacing);
             v.ghost_normal[g] = -ratio;
-            // Without friction of its own a plate passes no shear through its surface.
-            v.ghost_tangential[g] = plate.spec().friction == GP_WALL_NO_SLIP ? -ratio : 1.0;
         }
     });
     for_each_block<ghost_block_size>(world.threads, static_cast<int64_t>(w.contacts.size()),
@@ -117,9 +117,10 @@ void make_ghosts(World &world) {
                                      });
 }
 
-// (tangential t (x) t + normal n (x) n) a
-GP_INLINE Vector scaled(const Segment &s, double tangential, double normal, const Vector &a) {
-    return tangential * s.tangent.dot(a) * s.tangent + normal * s.normal.dot(a) * s.normal;
+// (t (x) t + normal n (x) n) a
+GP_INLINE Vector scaled(const Walls &w, int64_t ghost, double normal, const Vector &a) {
+    const Vector n(w.ghost_nx[ghost], w.ghost_ny[ghost]);
+    return a + (normal - 1) * n.dot(a) * n;
 }
 
 void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
@@ -137,16 +138,20 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
             Vector own = Vector::Zero();
             if (plates == Plates::move)
                 own = plate.velocity();
-            const Vector ghost = own + scaled(plate.segment(), v.ghost_tangential[g], v.ghost_normal[g], mean - own);
+            const Vector ghost = own + scaled(w, g, v.ghost_normal[g], mean - own);
             v.ghost_velocity.x[g] = ghost.x();
             v.ghost_velocity.y[g] = ghost.y();
         }
     });
 }
 
+struct Gradients {
+    double *xx, *xy, *yx, *yy;                         // L
+    double *inner_xx, *inner_xy, *inner_yx, *inner_yy; // that of the particles alone
+};
+
 GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const double *__restrict uy,
-                               const double *gx, const double *gy, double *oxx, double *oxy, double *oyx, double *oyy,
-                               int64_t begin, int64_t end) {
+                               const double *gx, const double *gy, const Gradients &l, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double ui = ux[i], vi = uy[i];
         double mxx = 0, mxy = 0, myx = 0, myy = 0;
@@ -159,6 +164,10 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
             myx += dv * v.qx[k];
             myy += dv * v.qy[k];
         }
+        l.inner_xx[i] = mxx * v.ixx[i] + mxy * v.ixy[i];
+        l.inner_xy[i] = mxx * v.ixy[i] + mxy * v.iyy[i];
+        l.inner_yx[i] = myx * v.ixx[i] + myy * v.ixy[i];
+        l.inner_yy[i] = myx * v.ixy[i] + myy * v.iyy[i];
         for (const Contact &contact : v.rows.contacts_of(i)) {
             double xx = 0, xy = 0, yx = 0, yy = 0;
 #pragma omp simd reduction(+ : xx, xy, yx, yy)
@@ -170,62 +179,92 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
                 yx += dv * v.ghost_qx[k];
                 yy += dv * v.ghost_qy[k];
             }
-            drop_wall_shear(v.plates[contact.plate], xx, xy, yx, yy);
+            drop_shear(v.plates[contact.listed_plate], xx, xy, yx, yy);
             mxx += xx;
             mxy += xy;
             myx += yx;
             myy += yy;
         }
-        oxx[i] = mxx * v.gxx[i] + mxy * v.gxy[i];
-        oxy[i] = mxx * v.gxy[i] + mxy * v.gyy[i];
-        oyx[i] = myx * v.gxx[i] + myy * v.gxy[i];
-        oyy[i] = myx * v.gxy[i] + myy * v.gyy[i];
+        l.xx[i] = mxx * v.gxx[i] + mxy * v.gxy[i];
+        l.xy[i] = mxx * v.gxy[i] + mxy * v.gyy[i];
+        l.yx[i] = myx * v.gxx[i] + myy * v.gxy[i];
+        l.yy[i] = myx * v.gxy[i] + myy * v.gyy[i];
+        if (v.beside[i] > 0) {
+            const Vector &n = v.plates[v.rows.contacts_of(i).first->listed_plate].segment().normal;
+            const double x = n.x() * (l.xx[i] - l.inner_xx[i]) + n.y() * (l.yx[i] - l.inner_yx[i]);
+            const double y = n.x() * (l.xy[i] - l.inner_xy[i]) + n.y() * (l.yy[i] - l.inner_yy[i]);
+            l.inner_xx[i] += n.x() * x;
+            l.inner_xy[i] += n.x() * y;
+            l.inner_yx[i] += n.y() * x;
+            l.inner_yy[i] += n.y() * y;
+        }
     }
 }
 
-// Force on each ghost: -sum C_i w r + c_i w (u_ghost - u_i) over the particles that see it.
+// What particle i's stress and hidden motion exert through the plate on its ghosts, of ways w r and per w: C w r + c w (u_g - u_i),
+// along the normal what the hidden motion adds.
+struct ThroughPlate {
+    double xx, xy, yx, yy;
+    Vector normal;
+    double stiffness, away; // c, n . u_i
+
+    GP_INLINE ThroughPlate(const World &world, const VectorField &u, int64_t i, const Plate &plate)
+        : normal(plate.segment().normal) {
+        const Particles &p = world.particles;
+        const ViscousSystem &v = world.viscous;
+        const double c = v.stiffness[i];
+        xx = p.cxx[i] + c * v.lxx[i];
+        xy = p.cxy[i] + c * v.lxy[i];
+        yx = p.cyx[i] + c * v.lyx[i];
+        yy = p.cyy[i] + c * v.lyy[i];
+        drop_shear(plate, xx, xy, yx, yy);
+        stiffness = c * v.beside[i];
+        const Vector &n = normal;
+        const double x = stiffness * (n.x() * v.lxx[i] + n.y() * v.lyx[i]);
+        const double y = stiffness * (n.x() * v.lxy[i] + n.y() * v.lyy[i]);
+        xx -= n.x() * x;
+        xy -= n.x() * y;
+        yx -= n.y() * x;
+        yy -= n.y() * y;
+        away = n.x() * u.x[i] + n.y() * u.y[i];
+    }
+    GP_INLINE Vector force(const ViscousSystem &v, int64_t g, double qx, double qy, double w) const {
+        const double apart =
+            stiffness * w * (normal.x() * v.ghost_velocity.x[g] + normal.y() * v.ghost_velocity.y[g] - away);
+        return {xx * qx + xy * qy + apart * normal.x(), yx * qx + yy * qy + apart * normal.y()};
+    }
+};
+
+// Force on each ghost: the opposite of what it exerts on the particles that see it.
 void find_ghost_forces(World &world, const VectorField &u) {
     const Walls &w = world.walls;
-    const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
-            const Plate &plate = w.plates[w.ghost_plate[g]];
-            double fx = 0, fy = 0;
+            Vector force = Vector::Zero();
             for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
-                const int32_t i = w.particles_of_ghost.index[k];
-                double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
-                drop_wall_shear(plate, xx, xy, yx, yy);
-                const double share = v.stiffness[i] * v.seen_weight[k];
-                fx -= xx * v.seen_pair.x[k] + xy * v.seen_pair.y[k] + share * (v.ghost_velocity.x[g] - u.x[i]);
-                fy -= yx * v.seen_pair.x[k] + yy * v.seen_pair.y[k] + share * (v.ghost_velocity.y[g] - u.y[i]);
+                const Plate &plate = w.plates[world.mirrors.plate_of_entry[k]];
+                const ThroughPlate through(world, u, w.particles_of_ghost.index[k], plate);
+                force -= through.force(v, g, v.seen_pair.x[k], v.seen_pair.y[k], v.seen_weight[k]);
             }
-            v.ghost_force.x[g] = fx;
-            v.ghost_force.y[g] = fy;
+            v.ghost_force.x[g] = force.x();
+            v.ghost_force.y[g] = force.y();
         }
     });
 }
 
 GP_INLINE Vector force_of_contact(const View &v, const World &world, const VectorField &u, const Contact &contact) {
-    const Particles &p = world.particles;
     const ViscousSystem &s = world.viscous;
-    const int64_t i = contact.particle;
-    const Plate &plate = v.plates[contact.plate];
-    double xx = p.cxx[i], xy = p.cxy[i], yx = p.cyx[i], yy = p.cyy[i];
-    drop_wall_shear(plate, xx, xy, yx, yy);
+    const ThroughPlate through(world, u, contact.particle, v.plates[contact.listed_plate]);
     Vector force = Vector::Zero();
-    for (int64_t k = contact.begin; k < contact.end; ++k) {
-        const int32_t g = v.rows.ghost_index[k];
-        const double share = s.stiffness[i] * v.ghost_w[k];
-        force += Vector(xx * v.ghost_qx[k] + xy * v.ghost_qy[k] + share * (s.ghost_velocity.x[g] - u.x[i]),
-                        yx * v.ghost_qx[k] + yy * v.ghost_qy[k] + share * (s.ghost_velocity.y[g] - u.y[i]));
-    }
+    for (int64_t k = contact.begin; k < contact.end; ++k)
+        force += through.force(s, v.rows.ghost_index[k], v.ghost_qx[k], v.ghost_qy[k], v.ghost_w[k]);
     const Mirrors &mirrors = world.mirrors;
     const int64_t c = &contact - world.walls.contacts.data();
     for (int64_t k = mirrors.contact_start[c]; k < mirrors.contact_start[c + 1]; ++k) {
         const int32_t g = mirrors.ghost[k];
-        force += s.mirror_share[mirrors.place[k]] * scaled(plate.segment(), s.ghost_tangential[g], s.ghost_normal[g],
-                                                           Vector(s.ghost_force.x[g], s.ghost_force.y[g]));
+        force += s.mirror_share[mirrors.place[k]] *
+                 scaled(world.walls, g, s.ghost_normal[g], Vector(s.ghost_force.x[g], s.ghost_force.y[g]));
     }
     return force;
 }
@@ -262,31 +301,76 @@ GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorF
     }
 }
 
-// Where L is not the best fit to the velocities around (few neighbours, a plate that takes no shear), what it does not
-// see has no energy of its own to be the derivative of.
-void mark_regular(World &world) {
+// Of the shear along the plates beside particle i, the share that its gradient sees, which is fitted to ghosts that pass none:
+// 1/2 in the row beside a plate, .9 in the next. m: of the particles alone.
+double seen_shear(const World &world, int64_t i, const Moments &m) {
+    const ViscousSystem &v = world.viscous;
+    double least = 1;
+    for (const Contact &contact : Rows(world).contacts_of(i)) {
+        const Vector &n = world.walls.plates[contact.listed_plate].segment().normal;
+        double ghosts = 0;
+        for (int64_t k = contact.begin; k < contact.end; ++k)
+            if (v.contact_weight[k] > 0) {
+                const double across = n.x() * v.contact_pair.x[k] + n.y() * v.contact_pair.y[k];
+                ghosts += across * across / v.contact_weight[k];
+            }
+        const double own = n.x() * n.x() * m.kxx + 2 * n.x() * n.y() * m.kxy + n.y() * n.y() * m.kyy;
+        const double known = std::max(own, deficient_share * world.constants.lattice.second_moment);
+        least = std::min(least, known / (known + ghosts));
+    }
+    return least;
+}
+
+// Beside one plate the hidden motion along its normal is that of the fit to the ghosts as well, if K^-1 is the inverse.
+bool sees_one_plate(const World &world, int64_t i, Moments m) {
+    const ViscousSystem &v = world.viscous;
+    const Particles &p = world.particles;
+    const Rows::Run run = Rows(world).contacts_of(i);
+    if (run.last - run.first != 1)
+        return false;
+    for (int64_t k = run.first->begin; k < run.first->end; ++k)
+        if (v.contact_weight[k] > 0) {
+            const double qx = v.contact_pair.x[k], qy = v.contact_pair.y[k], inverse = 1 / v.contact_weight[k];
+            m.kxx += inverse * qx * qx;
+            m.kxy += inverse * qx * qy;
+            m.kyy += inverse * qy * qy;
+        }
+    const double off = std::abs(m.kxx * p.gxx[i] + m.kxy * p.gxy[i] - 1) +
+                       std::abs(m.kxy * p.gxy[i] + m.kyy * p.gyy[i] - 1) +
+                       std::abs(m.kxx * p.gxy[i] + m.kxy * p.gyy[i]);
+    return off < 1e-6;
+}
+
+// What the hidden motion u_j - u_i - L r, L = M P, goes by: its energy, c/2 sum w |u_j - u_i - L r|^2, is the derivative's with
+// 2 P - P K P, which is P = K^-1 where that is the inverse; so it is one among few neighbours, too. (Left out there, grains at
+// tips went astray at 5e-4 m/s whatever delta.) And the share of the shear that the gradient sees.
+void make_inner_shapes(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     const Rows rows(world);
+    const double k0 = world.constants.lattice.second_moment;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
-            double kxx = 0, kxy = 0, kyy = 0;
-            const auto add = [&](double w, double qx, double qy) {
+            Moments m;
+            const auto add = [&m](double w, double qx, double qy) {
                 if (w > 0) {
-                    kxx += qx * qx / w;
-                    kxy += qx * qy / w;
-                    kyy += qy * qy / w;
+                    m.kxx += qx * qx / w;
+                    m.kxy += qx * qy / w;
+                    m.kyy += qy * qy / w;
                 }
             };
             for (int64_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
                 add(v.pair_weight[k], v.pair.x[k], v.pair.y[k]);
-            for (const Contact &contact : rows.contacts_of(i))
-                for (int64_t k = contact.begin; k < contact.end; ++k)
-                    add(v.contact_weight[k], v.contact_pair.x[k], v.contact_pair.y[k]);
-            const double off = std::abs(kxx * p.gxx[i] + kxy * p.gxy[i] - 1) +
-                               std::abs(kxy * p.gxy[i] + kyy * p.gyy[i] - 1) +
-                               std::abs(kxx * p.gxy[i] + kxy * p.gyy[i]);
-            v.regular[i] = off < 1e-6 && !touches_slip(world, i) ? 1.0 : 0.0;
+            const SymmetricTensor g = inverse_shape(m, k0);
+            Tensor shape, inverse;
+            shape << m.kxx, m.kxy, m.kxy, m.kyy;
+            inverse << g.xx, g.xy, g.xy, g.yy;
+            const Tensor fit = 2 * inverse - inverse * shape * inverse;
+            v.inner_xx[i] = fit(0, 0);
+            v.inner_xy[i] = fit(0, 1);
+            v.inner_yy[i] = fit(1, 1);
+            v.seen_shear[i] = seen_shear(world, i, m);
+            v.beside[i] = sees_one_plate(world, i, m) ? 1.0 : 0.0;
         }
     });
 }
@@ -320,10 +404,10 @@ void make_room(World &world) {
         field->resize(n);
     for (VectorField *field : {&v.velocity, &v.change, &v.direction})
         field->resize(with_images);
-    for (Field<double> *field :
-         {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.lxx, &v.lxy, &v.lyx, &v.lyy, &v.regular})
+    for (Field<double> *field : {&v.diagonal, &v.hxx, &v.hxy, &v.hyy, &v.viscosity, &v.seen_shear, &v.inner_xx,
+                                 &v.inner_xy, &v.inner_yy, &v.full_xx, &v.full_xy, &v.full_yx, &v.full_yy})
         field->resize(n);
-    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness})
+    for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness, &v.beside, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
         field->resize(with_images);
     v.partial.resize(block_count(n));
 }
@@ -342,8 +426,9 @@ void make_viscous_system(World &world) {
                   v.pair_weight.data(), begin, end);
     });
     make_ghosts(world);
-    find_yield_pressure(world);
-    mark_regular(world);
+    v.pressure.assign(p.pressure.begin(), p.pressure.begin() + p.count);
+    make_inner_shapes(world);
+    world.images.copy(v.beside);
 }
 
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) {
@@ -352,19 +437,21 @@ void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) 
     if (world.walls.in_reach())
         find_ghost_velocities(world, u, plates);
     const View view(world);
+    const Gradients gradients{v.full_xx.data(), v.full_xy.data(), v.full_yx.data(), v.full_yy.data(),
+                              v.lxx.data(),     v.lxy.data(),     v.lyx.data(),     v.lyy.data()};
     for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
-        rate_rows(view, u.x.data(), u.y.data(), v.ghost_velocity.x.data(), v.ghost_velocity.y.data(), v.lxx.data(),
-                  v.lxy.data(), v.lyx.data(), v.lyy.data(), begin, end);
+        rate_rows(view, u.x.data(), u.y.data(), v.ghost_velocity.x.data(), v.ghost_velocity.y.data(), gradients, begin,
+                  end);
         for (int64_t i = begin; i < end; ++i) {
-            e.x[i] = 0.5 * (v.lxx[i] - v.lyy[i]);
-            e.y[i] = 0.5 * (v.lxy[i] + v.lyx[i]);
+            e.x[i] = 0.5 * (gradients.xx[i] - gradients.yy[i]);
+            e.y[i] = 0.5 * (gradients.xy[i] + gradients.yx[i]);
         }
     });
 }
 
 void viscous_forces(World &world, const VectorField &s, const VectorField &u, VectorField &f) {
     Particles &p = world.particles;
-    const ViscousSystem &v = world.viscous;
+    ViscousSystem &v = world.viscous;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const double c = v.stiffness[i];
@@ -375,6 +462,7 @@ void viscous_forces(World &world, const VectorField &s, const VectorField &u, Ve
         }
     });
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
+    world.images.copy({&v.lxx, &v.lxy, &v.lyx, &v.lyy});
     if (world.walls.in_reach())
         find_ghost_forces(world, u);
     const View view(world);

@@ -8,14 +8,13 @@
 // linearised equations are symmetric and positive definite, and what the material loses is what the plates get.
 #pragma once
 
+#include "stages/viscous_walls.hpp"
 #include "world.hpp"
 
 namespace gp::stages {
 
 // The operators where particles and plates are now.
 void make_viscous_system(World &world);
-
-enum class Plates { move, stand }; // stand: for changes of u
 
 // e of u. Makes u's images and the ghosts' velocities.
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e);

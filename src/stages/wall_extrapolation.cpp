@@ -86,19 +86,33 @@ GP_MULTIVERSION void add_stresses(const View &view, const GhostRow &row, WallStr
 }
 
 // Velocities are extrapolated linearly through the plate's surface, by the ratio of the ghost's depth to the particles'
-// mean distance: without a limit where all that the ghost sees is at yield, which puts the no-slip surface where it is
-// (simple shear to 0.05 %, Bagnold flow; with the limits below everywhere the wall slips by 1.5 % and 2 %), and no steeper
-// than this elsewhere. Measured on the collapse with a = 1.25, L/dl = 32: unlimited everywhere, the extrapolation drives
-// the flow with 3.1 % of the initial energy and keeps the deposit stirring; with the limits it takes 1.7 %, pressure
-// spikes at the floor stay below 1.1 rho g H, and the deposit comes to rest. The peak of the deposit does not change by
-// more than 1 %. Only the velocity along the plate is set free: normal to it the spikes come back. Particles that touch
-// the plate, as a scene may begin or a collision leave them, are taken to be where contact holds them: else the ratio has
-// no bound (a particle .0003 dl off a plate sent its neighbours off at a thousand times the sound speed).
-constexpr double steepest_tangential = 0.5, steepest_normal = 0.25;
+// mean distance: without a limit where all that the ghost sees is at yield, which puts the no-slip surface where it is, and no
+// steeper than this elsewhere: with 1, eight of 24 deposits at L/dl = 8 trembled on for more than a second, with .5 none did.
+// Particles that touch the plate, as a scene may begin or a collision leave them, are taken to be where contact holds them:
+// else the ratio has no bound (a particle .0003 dl off a plate sent its neighbours off at a thousand times the sound speed).
+//
+// Normal to the plate 1 would balance the ghosts' full pressure, so that a wall neither gives nor takes p u_n; but it lets a wall
+// be felt a horizon ahead: 1.66 rho c v in a block that falls on a floor, for 1.27, energy from the floor in columns of few grains,
+// 1.35 rho g H in single grains of a collapse's front, for 1.2. What a bowl of 24 plates gives back while the grains in it swing,
+// 1.5e-4 J/m in all, is 5e-5 with 1.
+constexpr double steepest_tangential = 0.5, normal_ratio = 0.25;
 
 bool at_yield(const World &world, int32_t i) {
     const Particles &p = world.particles;
     return p.pressure[i] > 0 && world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
+}
+
+// Is all that the ghost sees at yield?
+bool flows_before(const World &world, const GhostRow &row) {
+    const Particles &p = world.particles;
+    const double horizon2 = world.constants.horizon * world.constants.horizon;
+    for (int64_t e = 0; e < row.count; ++e) {
+        const int32_t i = row.index[e];
+        const double dx = p.x[i] - row.x, dy = p.y[i] - row.y;
+        if (dx * dx + dy * dy < horizon2 && !at_yield(world, i)) // the lists reach further than the horizon
+            return false;
+    }
+    return true;
 }
 
 // Sheared: ghosts of a rough plate carry the shear on through its surface. Else they move with the plate along it: the
@@ -106,37 +120,30 @@ bool at_yield(const World &world, int32_t i) {
 // drive its collapses with 1.6 % of the initial energy at L/dl = 32, these with .6 %.)
 template <bool Sheared> void extrapolate_velocity(World &world) {
     Walls &w = world.walls;
-    const Particles &p = world.particles;
     const View view(world);
-    const double horizon2 = world.constants.horizon * world.constants.horizon;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Plate &plate = w.plates[w.ghost_plate[k]];
-            const Segment &s = plate.segment();
+            const Vector n(w.ghost_nx[k], w.ghost_ny[k]), t(-n.y(), n.x());
             const GhostRow row(w, k);
             VelocitySums sums;
             add_velocities(view, row, sums);
             const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
-            bool flows = rough; // all that the ghost sees is at yield; matters to rough plates alone
-            for (int64_t e = 0; flows && e < row.count; ++e) {
-                const int32_t i = row.index[e];
-                const double dx = p.x[i] - row.x, dy = p.y[i] - row.y;
-                flows = dx * dx + dy * dy >= horizon2 || at_yield(world, i); // the lists reach further than the horizon
-            }
+            const bool flows = rough && flows_before(world, row);
             if (sums.w <= 0) { // in the skin only
                 w.ghost_vx[k] = plate.velocity().x();
                 w.ghost_vy[k] = plate.velocity().y();
                 continue;
             }
             const Vector relative = Vector(sums.u, sums.v) / sums.w - plate.velocity();
-            const double mean_distance = s.normal.dot(Vector(sums.x, sums.y)) / sums.w - w.ghost_depth[k];
+            const double mean_distance = n.dot(Vector(sums.x, sums.y)) / sums.w - w.ghost_distance[k];
             const double distance = std::max(mean_distance, contact_distance * world.constants.spacing);
-            const double ratio = w.ghost_depth[k] / distance;
-            const double normal = -std::min(ratio, steepest_normal) * s.normal.dot(relative);
+            const double ratio = w.ghost_distance[k] / distance;
+            const double normal = -normal_ratio * n.dot(relative);
             // Without friction of its own a plate passes no shear through its surface.
             const double carried = Sheared ? -(flows ? ratio : std::min(ratio, steepest_tangential)) : 0.0;
-            const double tangential = (rough ? carried : 1.0) * s.tangent.dot(relative);
-            const Vector ghost = plate.velocity() + normal * s.normal + tangential * s.tangent;
+            const double tangential = (rough ? carried : 1.0) * t.dot(relative);
+            const Vector ghost = plate.velocity() + normal * n + tangential * t;
             w.ghost_vx[k] = ghost.x();
             w.ghost_vy[k] = ghost.y();
         }
@@ -153,11 +160,6 @@ void wall_volume_velocity(World &world) {
     extrapolate_velocity<false>(world);
 }
 
-// Two rules for the shear traction on planes along the plate. Equilibrium of a steady uniform flow: it grows by the
-// weight along the plate, rho g.t per depth (walls of chutes, lids). Friction: it keeps its ratio to the pressure (floors
-// under heaps, where it balances the pressure's change along the floor). On an incline they agree. The larger of the two
-// holds: the ratio alone errs by 12 % in a chute and 1.3 % in a shear cell where this errs by 1 % and .3 %; equilibrium alone
-// lets heaps on a floor spread further (peak of the collapse with friction angles 25.5/36.5: y/L .445 for .458).
 namespace {
 
 template <bool Deviatoric> void extrapolate_stress(World &world) {
@@ -167,8 +169,7 @@ template <bool Deviatoric> void extrapolate_stress(World &world) {
     const double inverse_moment = 1.0 / c.lattice.second_moment;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
-            const Plate &plate = w.plates[w.ghost_plate[k]];
-            const Vector &n = plate.segment().normal, &t = plate.segment().tangent;
+            const Vector n(w.ghost_nx[k], w.ghost_ny[k]);
             WallStressSums sums;
             add_stresses(view, GhostRow(w, k), sums);
             const double sw = sums.w, sp = sums.pressure, down_x = sums.down_x, down_y = sums.down_y;
@@ -177,19 +178,11 @@ template <bool Deviatoric> void extrapolate_stress(World &world) {
             const double pressure = sw > 0 ? std::max(0.0, (sp + heavier) / sw) : 0.0;
             // The stress ratio, not the stress, carries over: it is what the friction law bounds.
             const double scale = sp > 0 ? pressure / sp : 0.0;
-            // s = s_nn (n n - t t) + s_tn (t n + n t)
+            // s = s_nn (n n - t t)
             const double cosine = n.x() * n.x() - n.y() * n.y(), sine = 2 * n.x() * n.y();
             const double normal = scale * (sxx * cosine + sxy * sine);
-            double shear = 0; // none through a plate without friction of its own
-            if (Deviatoric && plate.spec().friction == GP_WALL_NO_SLIP && pressure > 0) {
-                const double sum = t.x() * (sxx * n.x() + sxy * n.y()) + t.y() * (sxy * n.x() - sxx * n.y());
-                const double by_weight = (sum - t.dot(c.gravity) * (n.x() * down_x + n.y() * down_y)) / sw;
-                const double by_ratio = scale * sum;
-                shear = std::abs(by_weight) > std::abs(by_ratio) ? by_weight : by_ratio;
-            }
-            const double txx = 2 * t.x() * n.x(), txy = t.x() * n.y() + t.y() * n.x();
-            sxx = normal * cosine + shear * txx;
-            sxy = normal * sine + shear * txy;
+            sxx = normal * cosine; // no shear: the stage wall_friction has it
+            sxy = normal * sine;
             w.ghost_axx[k] = inverse_moment * (sxx - pressure);
             w.ghost_axy[k] = inverse_moment * sxy;
             w.ghost_ayy[k] = inverse_moment * (-sxx - pressure);

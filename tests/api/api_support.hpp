@@ -190,7 +190,19 @@ inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
                                s.penalty_dissipated,
                                s.wall_dissipated,
                                s.bulk_dissipated,
-                               s.collision_dissipated})
+                               s.collision_dissipated,
+                               s.spacing_dissipated,
+                               s.x_q01,
+                               s.x_q05,
+                               s.x_q25,
+                               s.x_q50,
+                               s.x_q75,
+                               s.x_q95,
+                               s.x_q99,
+                               s.centre_x,
+                               s.centre_y,
+                               s.detached,
+                               s.volume_drift})
         add(value);
     for (int32_t k = 0; k < plates; ++k) {
         const auto load = sim.load(k);

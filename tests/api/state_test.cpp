@@ -365,12 +365,23 @@ TEST(Plan, SaysWhatASceneLeavesOut) {
     ASSERT_EQ(gp_step(no_collisions, 2), GP_OK);
     EXPECT_EQ(entry(no_collisions.plan(), "collide").calls, 0);
 
-    Sim frictionless, coulomb;
-    add_collapse(coulomb, 3, 3);
-    frictionless.add(make_floor());
-    frictionless.add(make_column(3, 3));
-    EXPECT_EQ(entry(coulomb.plan(), "wall_friction").active, 1);
-    EXPECT_EQ(entry(frictionless.plan(), "wall_friction").active, 0);
+    // The traction of a rough plate is a law of friction, too: only what slips freely, or has a wall_mu of 0, needs none.
+    const auto friction_of = [](int32_t friction, double wall_mu) {
+        Sim sim;
+        gp_plate floor = make_floor();
+        floor.friction = friction;
+        floor.wall_mu = wall_mu;
+        sim.add(floor);
+        sim.add(make_column(3, 3));
+        return entry(sim.plan(), "wall_friction");
+    };
+    EXPECT_EQ(friction_of(GP_WALL_NO_SLIP, 0).active, 1);
+    EXPECT_EQ(friction_of(GP_WALL_COULOMB, 0.3).active, 1);
+    for (const int32_t friction : {GP_WALL_FREE_SLIP, GP_WALL_COULOMB}) {
+        const gp_plan_entry e = friction_of(friction, 0);
+        EXPECT_EQ(e.active, 0) << friction;
+        EXPECT_NE(std::string(e.reason).find("no plate has friction"), std::string::npos) << e.reason;
+    }
 }
 
 // A gate beside a falling column goes away by its table: then nothing moves and no plate is near, and the engine has

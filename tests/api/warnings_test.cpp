@@ -151,7 +151,9 @@ TEST(Warnings, OfAPlateThatPassesParticles) {
 TEST(Warnings, OfThePenaltysShare) {
     gp_config config = make_config();
     config.zero_energy_penalty = 0.5;
-    expect_once(config, [](Sim &sim) { add_collapse(sim, 16, 12); }, 0.4,
+    // A column little more than a horizon high, where the gradient sees least: 12.6 % at the end, without the gradient of ghosts,
+    // towards which nothing is penalised; with 12 rows 8.3 %, and nothing is to be said.
+    expect_once(config, [](Sim &sim) { add_collapse(sim, 16, 5); }, 0.4,
                 {"penalty has taken", "%", "smaller gp_config.zero_energy_penalty"});
 }
 
@@ -164,6 +166,28 @@ TEST(Warnings, OfTheEnergyError) {
     }
     config.allow_unstable_step = 1;
     expect_once(config, [](Sim &sim) { add_collapse(sim, 16, 12); }, 0.25, {"energy ledger is wrong by", "time_step"});
+}
+
+// What flows keeps its volume, with density diffusion and without: nothing is said. (That a loss is told of is the unit tests'
+// matter: no scene here loses volume any more. Before the density was tied to the spacing this layer lost a twentieth in 2 s.)
+TEST(Warnings, OfLostVolumeAreNotGivenWhereItIsKept) {
+    for (const double diffusion : {0.2, 0.0}) {
+        gp_config config = make_config();
+        const double angle = 26 * std::acos(-1.0) / 180;
+        config.gravity_x = 9.81 * std::sin(angle);
+        config.gravity_y = -9.81 * std::cos(angle);
+        config.periodic_x_max = 24 * spacing;
+        config.jitter = 0.2;
+        config.density_diffusion = diffusion;
+        Sim sim(config);
+        Log log;
+        ASSERT_EQ(gp_set_log(sim, Log::run, &log), GP_OK);
+        sim.add(make_column(24, 10));
+        sim.add(make_plate(24 * spacing, 0, 0, 0));
+        ASSERT_EQ(gp_run(sim, 4), GP_OK) << gp_last_error();
+        EXPECT_TRUE(log.warnings.empty()) << log.all();
+        EXPECT_LT(sim.state().volume_drift, 0.01);
+    }
 }
 
 // -------------------------------------------------------------------------------- hosts that throw through it

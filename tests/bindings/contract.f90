@@ -122,6 +122,8 @@ contains
         call expect(.not. sim%is_created(), "destroyed")
         state = sim%state(status, message)
         call expect_error(status, GP_E_STATE, message, "state: the simulation was never created, or has been destroyed")
+        call sim%clock(status=status, message=message)
+        call expect_error(status, GP_E_STATE, message, "clock: the simulation was never created, or has been destroyed")
         values = sim%copy(GP_FIELD_X, status, message)
         call expect(status == GP_E_STATE .and. size(values) == 0, "no copy after destroy")
         call expect(size(sim%plan(status, message)) == 0 .and. status == GP_E_STATE, "no plan after destroy")
@@ -135,8 +137,9 @@ contains
         type(gp_load) :: load
         type(gp_plan_entry), allocatable :: plan(:)
         real(gp_real), allocatable :: x(:), height(:)
-        real(gp_real) :: into(48)
-        integer :: k, left, right
+        real(gp_real) :: into(48), time, dt
+        integer(c_int64_t) :: step
+        integer :: k, left, right, status
         call make_scene(sim)
         call sim%step(2_c_int64_t)
         view = sim%particles(GP_FIELD_ID + GP_FIELD_POSITION)
@@ -153,6 +156,10 @@ contains
         call expect(associated(view%number_density), "all fields, where none is named")
         state = sim%state()
         call expect(state%step == 3 .and. state%n_particles == 48, "the state is read")
+        call sim%clock(time, dt, step)
+        call expect(step == state%step .and. abs(time - state%time) <= 0 .and. abs(dt - state%dt) <= 0, "the clock is read")
+        call sim%clock(step=step, status=status)
+        call expect(step == 3 .and. status == GP_OK, "a part of the clock is read")
         height = sim%surface([0.04_gp_real, 9.0_gp_real])
         call expect(height(1) > 0.04_gp_real .and. height(1) < 0.08_gp_real .and. abs(height(2)) <= 0, "the surface is read")
         load = sim%plate_load(0)

@@ -9,13 +9,52 @@ constexpr double dl = 0.005;
 
 } // namespace
 
-// A block of 8 x 8 falls on a floor at v: the pressure is that of a compression wave, rho c v, c that of uniaxial strain.
-TEST(Impact, IsTheWaterHammerAndComesToRest) {
+// A layer of 16 rows without sides falls on a floor at v: from when it has half of that until its compression wave has come up to
+// the surface the floor bears rho c v, c that of uniaxial strain. It feels the layer a horizon ahead, so not from an instant.
+TEST(Impact, LoadsTheFloorAsTheWaterHammer) {
+    const int rows = 16, across = 12;
     for (const double speed : {1., 10., 100.}) {
         SCOPED_TRACE(speed);
+        gp_config c = config(dl);
+        c.periodic_x_max = across * dl;
+        Sim sim(c);
+        sim.column(0, 5 * dl, across * dl, rows * dl, 0, 0, -speed);
+        const int32_t floor = sim.add(plate(across * dl, 0, 0, 0));
+        const double wave_speed = sim.state().sound_speed * std::sqrt(1.3);
+        const double impact = std::sqrt(speed * speed + 2 * 9.81 * 5 * dl);
+        const double hammer = 1550 * wave_speed * impact * across * dl; // N/m
+        for (int k = 0; k < 2000 && -sim.load(floor).fy < 0.5 * hammer; ++k)
+            sim.step();
+        const double before = sim.load(floor).impulse_y, begin = sim.state().time, transit = rows * dl / wave_speed;
+        sim.run(begin + transit);
+        const double load = (before - sim.load(floor).impulse_y) / transit;
+        std::printf("  %g m/s: %.3f rho c v\n", speed, load / hammer);
+        EXPECT_NEAR(load / hammer, 1, 0.1);
+    }
+}
+
+namespace {
+
+struct Blow {
+    double speed;
+    int32_t friction;
+    double highest; // pressure of a particle over rho c v
+};
+
+} // namespace
+
+// A block of 8 x 8: its free sides unload what is between them, and no particle bears more than rho c v on a smooth floor (.85 to
+// .91). A rough one holds the spreading foot together: 1.18, 1.25, 1.26 (with the floor's friction by ghosts, which let it go,
+// 1.07, 1.02, 1.03). Neither the penalty, with 0 or .5, nor what ties the density to the spacing changes that by more than .05.
+TEST(Impact, IsTheWaterHammerAndComesToRest) {
+    for (const Blow &blow :
+         {Blow{1, GP_WALL_FREE_SLIP, 1}, Blow{10, GP_WALL_FREE_SLIP, 1}, Blow{100, GP_WALL_FREE_SLIP, 1},
+          Blow{1, GP_WALL_NO_SLIP, 1.2}, Blow{10, GP_WALL_NO_SLIP, 1.3}, Blow{100, GP_WALL_NO_SLIP, 1.3}}) {
+        const double speed = blow.speed;
+        SCOPED_TRACE(testing::Message() << speed << " m/s, friction " << blow.friction);
         Sim sim(config(dl));
         sim.column(-4 * dl, 5 * dl, 8 * dl, 8 * dl, 0, 0, -speed);
-        sim.add(floor_at(0, -200 * dl, 200 * dl));
+        sim.add(floor_at(0, -200 * dl, 200 * dl, blow.friction));
         const gp_state start = sim.state();
         const double energy = start.kinetic + start.potential;
         double peak = 0, highest = 0;
@@ -27,14 +66,15 @@ TEST(Impact, IsTheWaterHammerAndComesToRest) {
             peak = std::max(peak, s.max_pressure);
             highest = std::max(highest, s.kinetic + s.potential + s.elastic);
         }
-        EXPECT_LT(peak, 1.2 * wave);
+        std::printf("  %g m/s, friction %d: %.3f rho c v\n", speed, blow.friction, peak / wave);
+        EXPECT_LT(peak, blow.highest * wave);
         EXPECT_GT(peak, 0.8 * wave);
         EXPECT_LT(highest, 1.001 * energy);
         EXPECT_LT(s.kinetic, 0.5 * start.kinetic);
         expect_finite(sim);
         for (const double y : sim.field(GP_FIELD_Y))
             EXPECT_GT(y, 0);
-        if (speed < 5) {
+        if (speed < 5 && blow.friction == GP_WALL_NO_SLIP) {
             s = run_to_rest(sim, 0.1, 3);
             EXPECT_EQ(s.at_rest, 1);
         }

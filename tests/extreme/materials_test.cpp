@@ -34,7 +34,7 @@ struct Deposits {
     Sample peak, potential;
 };
 
-Deposits deposits(const gp_material &m, int runs = 24) {
+Deposits deposits(const gp_material &m, int runs = 24, bool rests = true) {
     Deposits found;
     int at_rest = 0;
     for (int k = 0; k < runs; ++k) {
@@ -44,7 +44,9 @@ Deposits deposits(const gp_material &m, int runs = 24) {
         found.peak.add(s.peak_height / Collapse::length);
         found.potential.add(s.potential / (m.volume_fraction * m.grain_density) * Collapse::density / Collapse::energy);
     }
-    EXPECT_GT(at_rest, runs / 2) << "one in nine trembles (129 of 1176 runs): a known defect, and not to grow";
+    if (rests) {
+        EXPECT_GT(at_rest, runs / 2) << "one in nine trembles (129 of 1176 runs): a known defect, and not to grow";
+    }
     return found;
 }
 
@@ -68,7 +70,8 @@ TEST(GrainDiameter, GoesFromOneLimitOfTheLawToTheOther) {
     for (const double d : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1., 100.}) {
         gp_material m = beads();
         m.grain_diameter = d;
-        found.push_back(deposits(m));
+        // What bears more than mu_s p creeps at up to I0 sqrt(p / rho_s) / d: beyond a second with grains of .1 and 1 m.
+        found.push_back(deposits(m, 24, d < 0.05 || d > 10));
     }
     for (std::size_t k = 1; k < found.size(); ++k) { // more friction, a higher heap
         expect_mean_larger("peak", found[k].peak, 0.98, found[k - 1].peak);
@@ -83,8 +86,21 @@ TEST(GrainDiameter, GoesFromOneLimitOfTheLawToTheOther) {
 TEST(RateConstant, GoesFromOneLimitOfTheLawToTheOther) {
     gp_material m = beads();
     m.i0 = 1e9;
-    const double weak = deposit(m).peak_height; // mu differs by 1e-9, and the motion by what that grows to
-    EXPECT_NEAR(weak, deposit(of_friction(m.mu_s)).peak_height, 1e-6 * weak);
+    // mu differs by 1e-9, and the motion by what that has grown to: after .1 s, in which a column falls, 2e-10 of the place of its
+    // front, 1e-7 of the kinetic energy between .3 and 1 s. What it comes to in the end is chaos: means are the same.
+    std::vector<double> x[2];
+    for (const bool limit : {false, true}) {
+        Sim sim(config(Collapse::length / resolution));
+        sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height,
+                   sim.material(limit ? of_friction(m.mu_s) : m));
+        sim.add(floor_at(0, -0.6, 0.6));
+        sim.run(0.1);
+        x[limit] = sim.field(GP_FIELD_X);
+        const std::vector<double> y = sim.field(GP_FIELD_Y);
+        x[limit].insert(x[limit].end(), y.begin(), y.end());
+    }
+    EXPECT_LT(difference(x[0], x[1]), 1e-6 * Collapse::length / resolution);
+    expect_same(deposits(m), deposits(of_friction(m.mu_s)), 0.02);
     m.i0 = 1e-9; // the means of 40 runs differ by -.4 +- .2 % in the peak and -.8 +- .2 % in the potential energy
     const Deposits limit = deposits(m, 40), strong = deposits(of_friction(m.mu_2), 40);
     expect_means_near("peak", limit.peak, strong.peak, 0.015 * strong.peak.mean());
@@ -241,9 +257,9 @@ TEST(NoFriction, IsADamBreak) {
 // mu >= 1 holds a free vertical face. The exact static state, no stress across and the weight upright, is not that of the
 // hydrostatic start: what the release of its pressure tears open has no strength, and the column crumbles to about .8 H. It should
 // stand; what is asserted is what is true: it does not flow out as beads do, and stops.
-TEST(MuchFriction, CrumblesButStops) {
+TEST(MuchFriction, Stands) {
     gp_material m = of_friction(1.5);
     const gp_state strong = deposit(m, config(Collapse::length / resolution), 2), weak = deposit(beads());
-    EXPECT_GT(strong.peak_height, 0.7 * Collapse::height);
+    EXPECT_GT(strong.peak_height, 0.97 * Collapse::height); // tau = p on a vertical face
     EXPECT_LT(strong.x_right - strong.x_left, 0.9 * (weak.x_right - weak.x_left));
 }

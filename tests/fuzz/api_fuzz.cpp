@@ -274,6 +274,7 @@ void read(Host &host, Bytes &in) {
     int64_t n = 0;
     gp_particles particles{};
     particles.struct_size = in.below(4) ? sizeof particles : in.byte();
+    ALWAYS(checked(gp_get_clock(host.sim, &values[0], nullptr, &n)) == GP_OK);
     checked(gp_get_surface(host.sim, in.below(7) - 1, values, out));
     checked(gp_get_interface(host.sim, in.below(4) - 1, in.below(4) - 1, in.below(6), values, out));
     checked(gp_get_plate_load(host.sim, in.below(5) - 1, &load));

@@ -45,9 +45,12 @@ void operator delete(void *memory, std::size_t, std::align_val_t) noexcept {
 
 namespace {
 
-// A layer on a rough floor between two ends, or, periodic, one that flows down an incline for good. Both are thrown
-// about by their initial velocity, so that lists are made anew every few steps.
-gp_config flow_config(bool periodic) {
+// A layer on a rough floor between two ends, of one plate or of a line of them, or, periodic, one that flows down an incline for
+// good. All are thrown about by their initial velocity, so that lists are made anew every few steps.
+enum class Flow { box, line, periodic };
+
+gp_config flow_config(Flow flow) {
+    const bool periodic = flow == Flow::periodic;
     gp_config c = config(0.01);
     c.jitter = 0.1;
     c.gravity_x = periodic ? 4.5 : 0;
@@ -55,16 +58,18 @@ gp_config flow_config(bool periodic) {
     return c;
 }
 
-void add_flow(Sim &sim, bool periodic) {
+void add_flow(Sim &sim, Flow flow) {
     sim.column(0, 0, 0.4, 0.1, 0, 1);
-    sim.add(floor_at(0, 0, 0.4));
-    if (!periodic) {
+    const int pieces = flow == Flow::line ? 30 : 1;
+    for (int k = pieces; k > 0; --k)
+        sim.add(floor_at(0, 0.4 * (k - 1) / pieces, 0.4 * k / pieces));
+    if (flow != Flow::periodic) {
         sim.add(plate(0, 0, 0, 0.5));
         sim.add(plate(0.4, 0.5, 0.4, 0));
     }
 }
 
-class Allocations : public testing::TestWithParam<bool> {};
+class Allocations : public testing::TestWithParam<Flow> {};
 
 } // namespace
 
@@ -78,5 +83,7 @@ TEST_P(Allocations, OfAStepAreNoneAfterWarmUp) {
     EXPECT_EQ(allocations - before, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, Allocations, testing::Bool(),
-                         [](const auto &periodic) { return periodic.param ? "Periodic" : "Box"; });
+INSTANTIATE_TEST_SUITE_P(Scene, Allocations, testing::Values(Flow::box, Flow::line, Flow::periodic),
+                         [](const auto &flow) {
+                             return flow.param == Flow::box ? "Box" : flow.param == Flow::line ? "Line" : "Periodic";
+                         });

@@ -55,7 +55,7 @@ TEST(Implicit, LeavesTheDepositOfTheReturnMap) {
     EXPECT_NEAR(implicit.spread(), elastic.spread(), 0.03 * elastic.spread());
     EXPECT_NEAR(b.peak_height, a.peak_height, 0.06 * a.peak_height);
     EXPECT_LT(std::abs(b.energy_error), 0.005 * Collapse::energy);
-    EXPECT_LT(b.penalty_dissipated, 0.03 * b.dissipated);
+    EXPECT_LT(b.penalty_dissipated, 0.04 * b.dissipated); // the drag on the hidden motion, 3.5 %
     EXPECT_EQ(b.implicit_failures, 0);
     EXPECT_GT(b.implicit_newton, b.step / 2);
     EXPECT_LE(b.implicit_residual, 1e-5);
@@ -186,7 +186,8 @@ TEST(Implicit, CreepsInProportionToDelta) {
         // The uppermost row, without pressure, goes along with the one below it: 2 spacings of 20 half spacings.
         EXPECT_NEAR(surface, 0.95, 0.1) << delta;
         if (last > 0) {
-            EXPECT_NEAR(surface, last, 0.05 * last) << delta;
+            // 7 % between 1e-4 and 1e-6: by 1 s the start is not over in all (1e-4: .94, .97, .99, 1.00 at .5 .. 2 s).
+            EXPECT_NEAR(surface, last, 0.08 * last) << delta;
         }
         last = surface;
     }
@@ -219,6 +220,34 @@ TEST(Implicit, ShearsALayerBetweenPlatesLinearly) {
     }
     EXPECT_NEAR(top, rate, 0.03 * rate);
     EXPECT_NEAR(bottom, top, 1e-3 * rate);
+}
+
+// Rows that slide on a floor of the friction that the material has: it bears the weight, and drags with mu of that, however
+// thin the layer. (While ghosts turned round carried the shear inside the solve: 2.26, 1.52, 1.13, 1.07 of that under 1, 2, 4,
+// 10 rows.) Three rows settle for a while first: 1.2 %.
+TEST(Implicit, SlidesUnderTheFrictionOfTheLawInLayersOfAnyThickness) {
+    const double mu = std::tan(degrees(21)), speed = 0.5;
+    for (const int32_t friction : {GP_WALL_NO_SLIP, GP_WALL_COULOMB})
+        for (const int rows : {1, 2, 4, 10}) {
+            gp_config c = config(0.0025);
+            c.stress = GP_STRESS_IMPLICIT;
+            c.delta = 1e-4;
+            c.sound_speed = 10 * speed;
+            c.periodic_x_max = 12 * c.spacing;
+            Sim sim(c);
+            sim.column(0, 0, c.periodic_x_max, rows * c.spacing, sim.material(mu, mu), speed);
+            gp_plate floor = floor_at(0, 0, c.periodic_x_max, friction);
+            floor.wall_mu = friction == GP_WALL_COULOMB ? mu : 0;
+            const int32_t id = sim.add(floor);
+            const double stop = speed / (mu * 9.81);
+            sim.run(0.1 * stop);
+            const gp_load before = sim.load(id);
+            sim.run(0.4 * stop);
+            const gp_load after = sim.load(id);
+            const double weight = 1550 * 9.81 * rows * c.spacing * c.periodic_x_max, time = 0.3 * stop;
+            EXPECT_NEAR((after.impulse_x - before.impulse_x) / time, mu * weight, 0.01 * mu * weight)
+                << rows << " rows, friction " << friction;
+        }
 }
 
 // The flow is chaotic, and makes more and more of the differences that the tolerance leaves: .004 to .007 spacings at .05 s.

@@ -71,7 +71,9 @@ TEST(Chute, HasItsPlug) {
     };
     EXPECT_NEAR(exact(half), 0.2847, 1e-4);
     EXPECT_NEAR(law.mu_s / slope, 0.01515, 1e-5);
-    Layer chute(40, 2 * half, gravity, 0, 8.8, law.d, exact);
+    // The sheared layers are 4.8 mm thick, the gradient a mean over a horizon of 4 spacings: with 40 rows that is nearly all of
+    // them and the plug is 6 % slow, with 60 1.5 %, with 80, 10 spacings each, .3 % fast.
+    Layer chute(80, 2 * half, gravity, 0, 8.8, law.d, exact);
     chute.floor();
     chute.lid(2 * half, load, 0);
     chute.sim.run(0.5);
@@ -144,7 +146,7 @@ TEST(Slope, StaysBelowTheFrictionAngleAndFlowsAbove) {
         const double a = degrees(angle), h = 0.04;
         Layer layer(16, h, gravity * std::sin(a), -gravity * std::cos(a), 0, 0.002, [](double) { return 0.0; });
         layer.floor();
-        layer.sim.run(angle < 21 ? 3 : 0.5); // gravity sets in suddenly: the layer is sheared a little first
+        layer.sim.run(angle < 21 ? 3 : 0.5); // what begins in balance by the continuum finds that of the operators
         const gp_state s = layer.sim.state();
         if (angle < 21) {
             // What is left is an elastic wave that dies away, no drift.
@@ -302,9 +304,11 @@ TEST(LoadedPlate, PressesTheMaterialWithItsLoad) {
     lid.normal_pressure = 200;
     const int32_t top = sim.add(lid);
     const double load = 200 * 0.05, weight = density * gravity * 0.05 * 0.025;
-    sim.run(0.5);
-    const gp_load before = sim.load(top), below = sim.load(floor);
+    // The last of the motions that the gradient hardly sees creeps to its place, slow as the penalty inside the yield surface makes
+    // it: 5e-7 dl exp(-6.6 t / s), whatever zero_energy_penalty and bulk_viscosity are.
     sim.run(1.0);
+    const gp_load before = sim.load(top), below = sim.load(floor);
+    sim.run(1.5);
     const gp_load after = sim.load(top);
     EXPECT_NEAR((after.impulse_y - before.impulse_y) / 0.5, load, 1e-3 * load);
     EXPECT_NEAR((sim.load(floor).impulse_y - below.impulse_y) / 0.5, -load - weight, 1e-3 * (load + weight));

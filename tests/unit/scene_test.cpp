@@ -1,6 +1,7 @@
 // What follows from a scene before its first step.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene.hpp"
@@ -59,17 +60,139 @@ TEST(SoundSpeed, IsTenTimesTheLargestSpeedOfTheScene) {
     EXPECT_NEAR(gated.constants().sound_speed, 10 * std::sqrt(2 * g * 0.05 + 9), 1e-9);
 }
 
-TEST(InitialPressure, BalancesTheWeightWhereAPlateBearsIt) {
+namespace {
+
+constexpr double rho = 1550, g = 9.81, depth = 0.05;
+
+Scene tilted_scene(double angle, double mu = std::tan(std::acos(-1.0) / 180 * 21), int32_t stress = GP_STRESS_ELASTIC) {
+    gp_config config = default_config(GP_PRESET_DEFAULT);
+    config.spacing = 0.0025;
+    config.gravity_x = g * std::sin(angle);
+    config.gravity_y = -g * std::cos(angle);
+    config.stress = stress;
+    Scene scene(config);
+    gp_material material = default_material();
+    material.mu_s = material.mu_2 = mu;
+    gp_column column = default_column();
+    column.material = scene.add_material(material);
+    column.width = 0.08;
+    column.height = depth / 2;
+    std::string note;
+    scene.add_column(column, note); // one on the other
+    column.y_min = depth / 2;
+    scene.add_column(column, note);
+    return scene;
+}
+
+// Expects p, sxx and sxy as these multiples of the weight per area and depth.
+void expect_stress(const Scene &scene, double p, double sxx, double sxy) {
+    const std::vector<InitialStress> stress = scene.initial_stress(scene.constants());
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+        const double weight = rho * g * (depth - scene.y[i]);
+        EXPECT_NEAR(stress[i].pressure, p * weight, 1e-9);
+        EXPECT_NEAR(stress[i].sxx, sxx * weight, 1e-9);
+        EXPECT_NEAR(stress[i].sxy, sxy * weight, 1e-9);
+    }
+}
+
+} // namespace
+
+TEST(InitialStress, BalancesTheWeightWhereAPlateBearsIt) {
     Scene borne = column_scene(0);
     add_plate(borne, 1, 0, -1, 0);
-    const Constants c = borne.constants();
-    const std::vector<double> p = borne.initial_pressure(c);
-    for (std::size_t i = 0; i < p.size(); ++i)
-        EXPECT_NEAR(p[i], 1550 * 9.81 * (0.05 - borne.y[i]), 1e-9);
+    expect_stress(borne, 1, 0, 0);
     Scene hanging = column_scene(0.01);
     add_plate(hanging, 1, 0, -1, 0);
-    for (double value : hanging.initial_pressure(hanging.constants()))
-        EXPECT_EQ(value, 0);
+    expect_stress(hanging, 0, 0, 0);
+}
+
+TEST(InitialStress, HasTheShearThatTheFloorBears) {
+    for (const double angle : {-0.3, 0.1, 0.3, 0.5}) {
+        const double yield = std::tan(std::acos(-1.0) / 180 * 21), cosine = std::cos(angle);
+        Scene rough = tilted_scene(angle);
+        add_plate(rough, 1, 0, -1, 0);
+        const double most = yield * cosine;
+        expect_stress(rough, cosine, 0, std::clamp(std::sin(angle), -most, most));
+        Scene smooth = tilted_scene(angle);
+        add_plate(smooth, 1, 0, -1, 0, 0, GP_WALL_FREE_SLIP);
+        expect_stress(smooth, cosine, 0, 0);
+        Scene coulomb = tilted_scene(angle);
+        gp_plate plate = default_plate();
+        plate.x0 = 1;
+        plate.x1 = -1;
+        plate.friction = GP_WALL_COULOMB;
+        plate.wall_mu = 0.2;
+        coulomb.add_plate(plate);
+        expect_stress(coulomb, cosine, 0, std::clamp(std::sin(angle), -0.2 * cosine, 0.2 * cosine));
+        Scene implicit = tilted_scene(angle, yield, GP_STRESS_IMPLICIT);
+        add_plate(implicit, 1, 0, -1, 0);
+        expect_stress(implicit, cosine, 0, 0);
+    }
+    // A wall bears it instead.
+    Scene corner = tilted_scene(-0.3);
+    add_plate(corner, 1, 0, -1, 0);
+    add_plate(corner, 0, 0, 0, 1);
+    for (const InitialStress &s : corner.initial_stress(corner.constants()))
+        EXPECT_EQ(s.sxy, 0);
+    // The same turned by a right angle: gravity presses against a wall at the right.
+    gp_config config = default_config(GP_PRESET_DEFAULT);
+    config.spacing = 0.0025;
+    config.gravity_x = 8;
+    config.gravity_y = 2;
+    Scene turned(config);
+    gp_column column = default_column();
+    column.width = depth;
+    column.height = 0.08;
+    std::string note;
+    turned.add_column(column, note);
+    add_plate(turned, depth, 1, depth, -1);
+    const std::vector<InitialStress> stress = turned.initial_stress(turned.constants());
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+        // The forces on the part above x: rho g x + sigma (1, 0) = 0.
+        EXPECT_NEAR(stress[i].pressure, rho * 8 * turned.x[i], 1e-9);
+        EXPECT_NEAR(stress[i].sxy, -rho * 2 * turned.x[i], 1e-9);
+    }
+}
+
+TEST(InitialStress, IsUniaxialBetweenFreeSidesThatTheFrictionHolds) {
+    for (const double mu : {0.9, 1.0, 1.5}) {
+        Scene free = tilted_scene(0, mu);
+        add_plate(free, 1, 0, -1, 0);
+        expect_stress(free, mu < 1 ? 1 : 0.5, mu < 1 ? 0 : 0.5, 0);
+    }
+    Scene one_side = tilted_scene(0, 1.5);
+    add_plate(one_side, 1, 0, -1, 0);
+    add_plate(one_side, 0, 0, 0, 1);
+    expect_stress(one_side, 0.5, 0.5, 0);
+    Scene box = tilted_scene(0, 1.5);
+    add_plate(box, 1, 0, -1, 0);
+    add_plate(box, 0, 0, 0, 1);
+    add_plate(box, 0.08, 1, 0.08, 0);
+    expect_stress(box, 1, 0, 0);
+    // Columns side by side are one: the last has the only free side.
+    gp_config config = default_config(GP_PRESET_DEFAULT);
+    config.spacing = 0.0025;
+    Scene row(config);
+    gp_material material = default_material();
+    material.mu_s = material.mu_2 = 1.5;
+    gp_column column = default_column();
+    column.material = row.add_material(material);
+    column.width = 0.01;
+    column.height = depth;
+    std::string note;
+    for (int k = 0; k < 4; ++k) {
+        column.x_min = k * column.width;
+        row.add_column(column, note);
+    }
+    add_plate(row, 1, 0, -1, 0);
+    add_plate(row, 0, 0, 0, 1);
+    expect_stress(row, 0.5, 0.5, 0);
+    add_plate(row, 0.04, 1, 0.04, 0);
+    expect_stress(row, 1, 0, 0);
+    // With both gravities the shear is what the yield leaves.
+    Scene steep = tilted_scene(0.5, 1);
+    add_plate(steep, 1, 0, -1, 0);
+    expect_stress(steep, 0.5 * std::cos(0.5), 0.5 * std::cos(0.5), 0);
 }
 
 TEST(MotionTable, IsLinearBetweenKnotsAndAtRestOutside) {

@@ -14,7 +14,7 @@ from ._output import Output
 from ._result import Result, Snapshot
 from ._scene import Run, Scene, SceneError
 from ._simulation import Simulation
-from ._state import History, Load, PlanEntry, State
+from ._state import Clock, History, Load, PlanEntry, State
 from ._views import FieldView, Particles, View
 
 #: Version of the C library that runs, which is that of the package, too.
@@ -29,7 +29,7 @@ def has_feature(name: str) -> bool:
 load = Simulation.load
 
 __all__ = [
-    "ArgumentError", "ArgumentTypeError", "Column", "Config", "Density", "Difference", "DivergedError", "Error",
+    "ArgumentError", "ArgumentTypeError", "Clock", "Column", "Config", "Density", "Difference", "DivergedError", "Error",
     "Estimate", "Field", "FieldView", "FileError", "GranperiWarning", "History", "InitialPressure", "InternalError",
     "Load", "Material", "OutOfMemoryError", "Output", "Particles", "PlanEntry", "Plate", "Preset", "Result", "Run",
     "Scene", "SceneError", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",

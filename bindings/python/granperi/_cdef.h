@@ -268,9 +268,23 @@ typedef struct gp_state {
     int64_t retries;
     double dt_limit;
     double max_compression;
+    double spacing_dissipated;
+    double x_q01;
+    double x_q05;
+    double x_q25;
+    double x_q50;
+    double x_q75;
+    double x_q95;
+    double x_q99;
+    double centre_x;
+    double centre_y;
+    double detached;
+    double volume_drift;
 } gp_state;
 
 gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step);
 
 gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height);
 

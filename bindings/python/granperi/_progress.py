@@ -30,10 +30,9 @@ class Progress:
         return self
 
     def _time(self) -> float:
-        struct = ffi.new("gp_state *")
-        struct.struct_size = ffi.offsetof("gp_state", "step")  # the clock alone, but the library measures it all
-        lib.gp_get_state(self._sim._engine.sim, struct)
-        return struct.time
+        time = ffi.new("double *")
+        lib.gp_get_clock(self._sim._engine.sim, time, ffi.NULL, ffi.NULL)
+        return time[0]
 
     def _update(self) -> None:
         self._bar.n = min(self._time(), self._t_end)

@@ -11,7 +11,7 @@ from ._enums import FIELD_NAMES, StepLimit
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
 from ._objects import Material, Plate
 from ._simulation import Simulation
-from ._state import History, State
+from ._state import MARKS, History, State
 
 if TYPE_CHECKING:
     import h5py
@@ -266,7 +266,10 @@ class Result:
         return f"<granperi.Result {self.path}: {len(self)} frames>"
 
 
-_ABSENT = {"wall_seconds": float("nan")}
+# What a frame does not hold: wall-clock time, and what the version that wrote the file did not know.
+_ABSENT = {"wall_seconds": float("nan"), "spacing_dissipated": float("nan"), "centre_x": float("nan"),
+           "centre_y": float("nan"), "detached": float("nan"), "volume_drift": float("nan"),
+           **{name: float("nan") for name in MARKS.values()}}
 _KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
 
 

@@ -17,7 +17,7 @@ from ._library import ffi, lib
 from ._objects import Column, Config, Material, Parameters, Plate
 from ._output import Output
 from ._progress import Progress
-from ._state import History, Load, PlanEntry, State
+from ._state import Clock, History, Load, PlanEntry, State
 from ._views import Particles, View
 
 if TYPE_CHECKING:
@@ -268,9 +268,25 @@ class Simulation:
             return _state.read_state(engine.sim)
 
     @property
+    def clock(self) -> Clock:
+        """Time [s], last time step [s] and number of steps, at no cost: the state takes about as long as a step."""
+        with self._engine.locked("clock") as engine:
+            return _state.read_clock(engine.sim)
+
+    @property
     def time(self) -> float:
         """The clock, s."""
-        return self.state.time
+        return self.clock.time
+
+    @property
+    def quantiles(self) -> dict[float, float]:
+        """Marks of the mass: x [m] that have 1, 5, 25, 50, 75, 95 and 99 % of it on their left, by share.
+
+            sim.quantiles[0.95] - sim.quantiles[0.05]
+
+        Unlike the fronts (state.x_left, state.x_right), which single grains set, they converge with the spacing.
+        """
+        return self.state.quantiles
 
     @property
     def n_particles(self) -> int:
@@ -379,7 +395,7 @@ class Simulation:
 
     def _restore(self, sim) -> None:
         self._start(sim)
-        self._engine.watch.step = self.state.step
+        self._engine.watch.step = self.clock.step
 
     def __getstate__(self) -> dict[str, Any]:
         """For pickle and copy: the checkpoint, and what Python knows of the scene. Callback, output and views stay."""

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import NamedTuple
 
 import numpy as np
 
@@ -56,6 +57,23 @@ class State:
     retries: int
     dt_limit: float
     max_compression: float
+    spacing_dissipated: float
+    x_q01: float
+    x_q05: float
+    x_q25: float
+    x_q50: float
+    x_q75: float
+    x_q95: float
+    x_q99: float
+    centre_x: float
+    centre_y: float
+    detached: float
+    volume_drift: float
+
+    @property
+    def quantiles(self) -> dict[float, float]:
+        """Marks of the mass: x [m] that have these shares of it on their left, {0.01: x_q01, ..., 0.99: x_q99}."""
+        return {share: getattr(self, name) for share, name in MARKS.items()}
 
     @property
     def energy_initial(self) -> float:
@@ -63,6 +81,8 @@ class State:
         return self.kinetic + self.potential + self.elastic + self.dissipated + self.plate_work + self.energy_error
 
 
+MARKS = {int(name[3:]) / 100: name for name in
+          ("x_q01", "x_q05", "x_q25", "x_q50", "x_q75", "x_q95", "x_q99")}
 _STATE_NAMES = tuple(field.name for field in dataclasses.fields(State))
 
 
@@ -74,6 +94,20 @@ def read_state(sim) -> State:
     values["at_rest"] = bool(values["at_rest"])
     values["dt_reason"] = StepLimit(values["dt_reason"])
     return State(**values)
+
+
+class Clock(NamedTuple):
+    """The clock of a simulation: time [s], dt [s] of the last step (0 before the first), and the number of steps taken."""
+
+    time: float
+    dt: float
+    step: int
+
+
+def read_clock(sim) -> Clock:
+    time, dt, step = ffi.new("double *"), ffi.new("double *"), ffi.new("int64_t *")
+    check(lib.gp_get_clock(sim, time, dt, step))
+    return Clock(time[0], dt[0], step[0])
 
 
 @dataclasses.dataclass(frozen=True)

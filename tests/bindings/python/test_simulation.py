@@ -18,12 +18,32 @@ def test_a_scene_from_start_to_end(sim):
     assert isinstance(state.dt_reason, granperi.StepLimit) and isinstance(state.at_rest, bool)
 
 
+def test_the_clock_is_that_of_the_state(sim):
+    assert sim.clock == granperi.Clock(time=0, dt=0, step=0)
+    sim.step(3)
+    time, dt, step = sim.clock
+    state = sim.state
+    assert (time, dt, step) == (state.time, state.dt, state.step) and step == 3 and dt > 0 and sim.time == time
+
+
+def test_marks_of_the_mass(sim):
+    width = 10 * sim.config.spacing
+    left = sim.state.x_left
+    assert list(sim.quantiles) == [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99]
+    for share, x in sim.quantiles.items():
+        assert x == pytest.approx(left + share * width, abs=1e-9)
+    state = sim.state
+    assert sim.quantiles == state.quantiles and state.quantiles[0.05] == state.x_q05
+    assert state.centre_x == pytest.approx(np.mean(sim.x)) and state.centre_y == pytest.approx(np.mean(sim.y))
+    assert state.detached == 0 and state.volume_drift == 0
+
+
 def test_with_closes(make_block):
     with make_block() as sim:
         pass
     assert sim.closed
     sim.close()
-    for call in (lambda: sim.step(), lambda: sim.run(1), lambda: sim.state, lambda: sim.x, lambda: sim.view(),
+    for call in (lambda: sim.step(), lambda: sim.run(1), lambda: sim.state, lambda: sim.clock, lambda: sim.x, lambda: sim.view(),
                  lambda: sim.add_column(width=1, height=1), lambda: sim.plan(), lambda: len(sim), lambda: sim.save("x")):
         with pytest.raises(granperi.StateError, match="closed, .*: do it before, or make a new Simulation"):
             call()

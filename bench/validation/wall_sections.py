@@ -1,0 +1,199 @@
+"""The section of docs/validation.md on walls and inclines."""
+from __future__ import annotations
+
+import math
+
+import wall_runs as runs
+from markdown import NONE, cpu, fixed, percent, table
+from results import Collection
+
+HEADER = ["case", "right", "ours", "error", "CPU s"]
+
+MU_S, MU_2, I0 = math.tan(math.radians(21)), math.tan(math.radians(32)), 0.3
+GRAIN_DENSITY, DENSITY, GRAVITY, DIAMETER = 2500.0, 1550.0, 9.81, 0.002
+SILO_WIDTH, SILO_HEIGHT, SILO_SPEED = 0.06, 0.36, 0.01  # m, m, m/s
+
+
+def _value(results: Collection, run: runs.Run, name: str) -> float | None:
+    result = results(run)
+    return result.summary.get(name) if result else None
+
+
+def _cpu(results: Collection, *asked: runs.Run) -> str:
+    found = [result.cpu for run in asked if (result := results(run))]
+    return cpu(sum(found)) if found else NONE
+
+
+def slide_coulomb(results: Collection) -> str:
+    rows = []
+    for n in runs.COULOMB_ROWS:
+        for coulomb in (False, True):
+            run = runs.slide_coulomb(n, coulomb)
+            traction, way, exact = (_value(results, run, name) for name in ("traction", "way", "exact"))
+            rows.append(
+                [
+                    f"{n} {'row' if n == 1 else 'rows'}, {'Coulomb' if coulomb else 'rough'} floor",
+                    "1",
+                    fixed(traction, 4),
+                    percent(traction, 1, 2),
+                    fixed(exact, 4),
+                    fixed(way, 4),
+                    percent(way, exact, 2),
+                    _cpu(results, run),
+                ]
+            )
+    return table(["case", "right T/(μW)", "ours", "error", "right way (m)", "ours", "error", "CPU s"], rows)
+
+
+def slide_inertial(results: Collection) -> str:
+    rows = []
+    for n in runs.INERTIAL_ROWS:
+        run = runs.slide_inertial(n)
+        way, exact = _value(results, run, "way"), _value(results, run, "exact")
+        name = f"{n} {'row' if n == 1 else 'rows'}"
+        rows.append([name, fixed(exact, 4), fixed(way, 4), percent(way, exact), _cpu(results, run)])
+    return table(["case", "right way (m)", "ours", "error", "CPU s"], rows)
+
+
+def incline_start(results: Collection) -> str:
+    rows = []
+    for n in runs.START_ROWS:
+        run = runs.incline_start(n)
+        for k, time in enumerate(runs.START_TIMES):
+            ours, exact = _value(results, run, f"surface_{k}"), _value(results, run, f"exact_{k}")
+            last = k + 1 == len(runs.START_TIMES)
+            rows.append(
+                [
+                    f"h/dl = {n}, surface at {time:g} s (m/s)",
+                    fixed(exact, 4),
+                    fixed(ours, 4),
+                    percent(ours, exact),
+                    _cpu(results, run) if last else "",
+                ]
+            )
+    return table(HEADER, rows)
+
+
+def incline_column(results: Collection) -> str:
+    rows = []
+    for angle in runs.COLUMN_ANGLES:
+        finest = runs.incline_column(angle, runs.COLUMN_ROWS[-1])
+        for n in runs.COLUMN_ROWS:
+            run = runs.incline_column(angle, n)
+            values = {name: _value(results, run, name) for name in ("x_90", "x_98", "tip", "detached", "time", "at_rest")}
+            to_finest = [
+                NONE if n == runs.COLUMN_ROWS[-1] else percent(values[name], _value(results, finest, name))
+                for name in ("x_90", "x_98")
+            ]
+            detached = values["detached"]
+            rows.append(
+                [
+                    f"{angle:g}°, dl = {1000 * runs.COLUMN_HEIGHT / n:g} mm",
+                    fixed(values["x_90"]),
+                    to_finest[0],
+                    fixed(values["x_98"]),
+                    to_finest[1],
+                    fixed(values["tip"]),
+                    NONE if detached is None else f"{100 * detached:.2f} %",
+                    fixed(values["time"], 2) if values["at_rest"] else (f"not by {values['time']:g}" if values["time"] else NONE),
+                    _cpu(results, run),
+                ]
+            )
+    header = ["case", "R90 (m)", "to the finest", "R98 (m)", "to the finest", "tip (m)", "detached", "at rest (s)", "CPU s"]
+    return table(header, rows)
+
+
+def _sheared(mu_wall: float) -> float:
+    """Thickness of the layer at a wall where tau > mu_s p, m: tau falls linearly to the middle."""
+    return SILO_WIDTH / 2 * (1 - MU_S / mu_wall)
+
+
+def _plug_speed(mu_wall: float) -> float:
+    """Of the core of a deep silo whose walls bear this shear over normal stress, m/s; p = rho g W / (2 mu_wall) across."""
+    pressure = DENSITY * GRAVITY * SILO_WIDTH / (2 * mu_wall)
+    thickness, steps = _sheared(mu_wall), 400
+    speed = 0.0
+    for k in range(steps):
+        mu = mu_wall * (1 - 2 * (k + 0.5) * thickness / steps / SILO_WIDTH)
+        inertial = I0 * (mu - MU_S) / (MU_2 - mu)
+        speed += inertial / DIAMETER * math.sqrt(pressure / GRAIN_DENSITY) * thickness / steps
+    return speed
+
+
+def wall_friction() -> float:
+    """Shear over normal stress at the silo's walls by the law, deep below its surface."""
+    low, high = MU_S, MU_2 - 1e-6
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        low, high = (middle, high) if _plug_speed(middle) < SILO_SPEED else (low, middle)
+    return low
+
+
+def janssen(mu: float, ratio: float = 1.0) -> float:
+    """Share of the weight on the floor; ratio: K, of the pressure on the walls to the vertical stress."""
+    depth = 2 * mu * ratio * SILO_HEIGHT / SILO_WIDTH
+    return (1 - math.exp(-depth)) / depth
+
+
+def stress_ratio(mu: float, floor: float) -> float:
+    """K with which Janssen's formula has this share on the floor."""
+    low, high = 0.01, 100.0
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        low, high = (middle, high) if janssen(mu, middle) > floor else (low, middle)
+    return low
+
+
+def silo(results: Collection) -> str:
+    rows, law = [], wall_friction()
+    for n in runs.SILO_ROWS:
+        run = runs.silo(n)
+        friction, floor = _value(results, run, "friction"), _value(results, run, "floor")
+        ratio = None if floor is None or friction is None else stress_ratio(friction, floor)
+        rows.append([f"W/dl = {n}, T/N at the walls", fixed(law), fixed(friction), percent(friction, law), ""])
+        rows.append([f"W/dl = {n}, floor over weight", fixed(janssen(MU_S)), fixed(floor), percent(floor, janssen(MU_S)), ""])
+        rows.append([f"W/dl = {n}, K", "1", fixed(ratio, 2), percent(ratio, 1), _cpu(results, run)])
+    return table(HEADER, rows)
+
+
+def section(results: Collection) -> str:
+    return f"""Glass beads of 21° and 32°, I0 = 0.3; the program is [bench/walls](../bench/walls.c). "The law" is μ(I) in one
+dimension, solved beside ours by implicit finite volumes ([plane_flow.c](../bench/plane_flow.c)).
+
+### Layers that slide
+
+Thrown along a level floor at 0.5 m/s, dl = 2.5 mm, with a friction of tan 21° at any rate: the traction T is μ times the
+weight, however few rows there are, and the layer stops after u²/(2 μ g). The floor rough, or with Coulomb friction of the
+same coefficient.
+
+{slide_coulomb(results)}
+
+With μ(I), 5 mm thick, at 0.8 m/s; right is the law.
+
+{slide_inertial(results)}
+
+### From rest on an incline
+
+21.5°, half a degree above yield, h = 4 cm = 20 d. Right is the law. So near yield one per cent of the stress is
+{100 * 0.01 * math.tan(math.radians(21.5)) / (math.tan(math.radians(21.5)) - MU_S):.0f} % of the velocity.
+
+{incline_start(results)}
+
+### Columns on inclines
+
+H = 0.14 m, L = 0.20 m (a = 0.7), d = 0.7 mm, a smooth wall at the upper end, the floor rough. R90 and R98: distance from
+the wall within which 90 and 98 % of the mass lie, all of it at rest or at 3 s; "detached" is what lies outside of the connected
+deposit. There is no exact value: the coarser is compared with the finest.
+
+{incline_column(results)}
+
+### A tall silo
+
+0.06 m wide, 0.36 m high, rough walls; the floor, free to slip, sinks at 1 cm/s; means from 0.5 to 1.5 s. Right for T/N is what
+μ(I) has deep in the silo: the shear stress falls linearly from the walls, the core moves as a plug, and the layers beside
+the walls that take its {1000 * SILO_SPEED:g} mm/s are {1000 * _sheared(wall_friction()):.1f} mm thick. For the floor "right" is Janssen's share of the
+weight with K = 1 and tan 21°: a convention, not a solution. The law does not say what the vertical stress of the plug is, which
+is not at yield; a floor that gives way takes it off the plug above, while the pressure on the walls stays. K of ours is
+that with which Janssen's formula has our floor's share.
+
+{silo(results)}"""

@@ -1,0 +1,101 @@
+/* Walls and inclines: runs one case and prints what came out and what it cost, as lines of "name value unit". */
+#include "walls.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "options.h"
+
+static const char usage[] =
+    "usage: walls CASE [options]\n\n"
+    "cases: slide_coulomb, slide_inertial, incline_start, incline_shear, incline_column, silo\n";
+
+gp_config walls_config(const choices *c, double spacing) {
+    gp_config config;
+    CHECK(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
+    config.spacing = spacing;
+    config.threads = 1;
+    config.jitter = c->jitter;
+    config.gravity_x = GRAVITY * sin(c->angle * DEGREE);
+    config.gravity_y = -GRAVITY * cos(c->angle * DEGREE);
+    return config;
+}
+
+void walls_add_beads(gp_sim *sim, double diameter, int constant) {
+    gp_material material;
+    CHECK(gp_material_init(&material, sizeof material));
+    material.grain_diameter = diameter;
+    if (constant)
+        material.mu_2 = material.mu_s;
+    CHECK(gp_add_material(sim, &material, NULL));
+}
+
+gp_state walls_state(gp_sim *sim) {
+    gp_state state = {0};
+    state.struct_size = sizeof state;
+    CHECK(gp_get_state(sim, &state));
+    return state;
+}
+
+gp_load walls_load(gp_sim *sim, int32_t plate) {
+    gp_load load = {0};
+    load.struct_size = sizeof load;
+    CHECK(gp_get_plate_load(sim, plate, &load));
+    return load;
+}
+
+double *walls_field(gp_sim *sim, uint32_t bit, int64_t count) {
+    double *values = malloc(sizeof *values * (size_t)count);
+    if (!values)
+        exit(1);
+    CHECK(gp_copy_field(sim, bit, values, count));
+    return values;
+}
+
+void walls_print_cost(gp_sim *sim) {
+    const gp_state s = walls_state(sim);
+    printf("time %.6g s\n", s.time);
+    printf("particles %lld 1\n", (long long)s.n_particles);
+    printf("steps %lld 1\n", (long long)s.step);
+    printf("cpu_seconds %.3f s\n", (double)clock() / CLOCKS_PER_SEC);
+}
+
+int main(int argc, char **argv) {
+    static const struct {
+        const char *name;
+        void (*run)(const choices *);
+        double rows, angle, end; /* its own */
+    } cases[] = {
+        {"slide_coulomb", slide_coulomb, 10, 0, 0},    {"slide_inertial", slide_inertial, 10, 0, 0.18},
+        {"incline_start", incline_start, 20, 21.5, 5}, {"incline_shear", incline_shear, 10, 26, 40},
+        {"incline_column", incline_column, 28, 10, 3}, {"silo", silo, 12, 0, 1.5},
+    };
+    const int n = (int)(sizeof cases / sizeof cases[0]);
+    choices c = {NAN, NAN, 0, NAN, 0};
+    double coulomb = 0;
+    const bench_option options[] = {
+        {"--rows", "spacings in the layer, the height of the column, the width of the silo [10, 20, 28, 12]",
+         BENCH_WHOLE, &c.rows, 1, 1000},
+        {"--angle", "degrees, of the incline [depends on the case]", BENCH_NUMBER, &c.angle, 0, 45},
+        {"--jitter", "spacings [0]", BENCH_NUMBER, &c.jitter, 0, 0.3},
+        {"--end", "s, end of the run [depends on the case]", BENCH_NUMBER, &c.end, 1e-3, 1e4},
+        {"--coulomb", "1: a floor with the Coulomb friction of the material, of layers that slide [0]", BENCH_WHOLE,
+         &coulomb, 0, 1},
+    };
+    int k = 0;
+    example_program(argv[0]);
+    bench_parse(argc, argv, 2, usage, (int)(sizeof options / sizeof options[0]), options);
+    while (k < n && (argc < 2 || strcmp(argv[1], cases[k].name) != 0))
+        ++k;
+    if (k == n)
+        bench_refuse(argc < 2 ? "a case" : argv[1], NULL, "expected one of the cases");
+    c.rows = isnan(c.rows) ? cases[k].rows : c.rows;
+    c.angle = isnan(c.angle) ? cases[k].angle : c.angle;
+    c.end = isnan(c.end) ? cases[k].end : c.end;
+    c.coulomb = coulomb != 0;
+    cases[k].run(&c);
+    return 0;
+}

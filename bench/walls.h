@@ -1,0 +1,44 @@
+/* What walls and inclines do to glass beads of 21 and 32 degrees: the cases of the program, and what they share. */
+#ifndef GRANPERI_BENCH_WALLS_H
+#define GRANPERI_BENCH_WALLS_H
+
+#include <granperi/gp.h>
+
+#include "../examples/c/example.h" /* CHECK */
+
+#define DEGREE (3.14159265358979323846 / 180)
+#define GRAVITY 9.81   /* m/s2 */
+#define DENSITY 1550.0 /* kg/m3, of the flow */
+
+typedef struct choices {
+    double rows;     /* spacings in the layer, in the height of the column or in the width of the silo */
+    double angle;    /* degrees, of the incline */
+    double jitter;   /* spacings */
+    double end;      /* s */
+    int32_t coulomb; /* 1: the floor has the Coulomb friction of the material in place of a rough surface */
+} choices;
+
+gp_config walls_config(const choices *c, double spacing);
+/* Material 1: glass beads of this diameter (m); mu_2 = mu_s if constant. Material 0 is the library's own. */
+void walls_add_beads(gp_sim *sim, double diameter, int constant);
+gp_state walls_state(gp_sim *sim);
+gp_load walls_load(gp_sim *sim, int32_t plate);
+/* A copy of a field, to be freed. */
+double *walls_field(gp_sim *sim, uint32_t bit, int64_t count);
+/* Lines of time, particles, steps, CPU seconds. */
+void walls_print_cost(gp_sim *sim);
+
+/* A layer thrown along its level floor: traction over friction times weight, way to the stop; friction mu_s at any rate. */
+void slide_coulomb(const choices *c);
+/* The same with mu(I), 5 mm thick, beside the law in one dimension. */
+void slide_inertial(const choices *c);
+/* A layer of 20 diameters on an incline: its start from rest beside the law in one dimension. */
+void incline_start(const choices *c);
+/* The same, long: height and velocity of the surface, at four times. */
+void incline_shear(const choices *c);
+/* A column released on an incline, a wall behind it: where its mass comes to rest. */
+void incline_column(const choices *c);
+/* A tall silo with rough walls whose floor sinks: friction of the walls, what the floor bears. */
+void silo(const choices *c);
+
+#endif

@@ -1,0 +1,94 @@
+/* A column that is released on an incline, and a tall silo whose floor sinks. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "walls.h"
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void add_column(gp_sim *sim, double width, double height, int32_t material) {
+    gp_column column;
+    CHECK(gp_column_init(&column, sizeof column));
+    column.width = width;
+    column.height = height;
+    column.material = material;
+    CHECK(gp_add_column(sim, &column, NULL));
+}
+
+static int32_t add_plate(gp_sim *sim, double x0, double y0, double x1, double y1, int32_t friction, double vy) {
+    gp_plate plate;
+    int32_t id;
+    CHECK(gp_plate_init(&plate, sizeof plate));
+    plate.x0 = x0;
+    plate.y0 = y0;
+    plate.x1 = x1;
+    plate.y1 = y1;
+    plate.friction = friction;
+    plate.vy = vy;
+    CHECK(gp_add_plate(sim, &plate, &id));
+    return id;
+}
+
+void incline_column(const choices *c) {
+    const double width = 0.20, height = 0.14, interval = 0.05;
+    const gp_config config = walls_config(c, height / c->rows);
+    gp_sim *sim;
+    gp_state state;
+    double *x, t;
+    CHECK(gp_create(&config, &sim));
+    walls_add_beads(sim, 0.0007, 0);
+    add_column(sim, width, height, 1);
+    add_plate(sim, 10, 0, 0, 0, GP_WALL_NO_SLIP, 0);
+    add_plate(sim, 0, 0, 0, 1, GP_WALL_FREE_SLIP, 0);
+    for (t = interval; t < c->end + 0.5 * interval; t += interval) {
+        CHECK(gp_run(sim, t));
+        state = walls_state(sim);
+        if (state.at_rest)
+            break;
+    }
+    state = walls_state(sim);
+    x = walls_field(sim, GP_FIELD_X, state.n_particles);
+    qsort(x, (size_t)state.n_particles, sizeof *x, ascending);
+    printf("x_90 %.5g m\n", x[(int64_t)(0.90 * (double)state.n_particles)]);
+    printf("x_98 %.5g m\n", x[(int64_t)(0.98 * (double)state.n_particles)]);
+    printf("tip %.5g m\n", state.x_right);
+    printf("detached %.5g of the mass\n", state.detached);
+    printf("at_rest %d 1\n", state.at_rest);
+    walls_print_cost(sim);
+    free(x);
+    gp_destroy(sim);
+}
+
+void silo(const choices *c) {
+    const double width = 0.06, height = 0.36, sinking = 0.01, from = 0.5, below = 0.05;
+    const gp_config config = walls_config(c, width / c->rows);
+    const double weight = DENSITY * GRAVITY * width * height;
+    gp_load before[3], after[3];
+    int32_t plates[3];
+    double normal, shear;
+    gp_sim *sim;
+    int k;
+    CHECK(gp_create(&config, &sim));
+    walls_add_beads(sim, 0.002, 0);
+    add_column(sim, width, height, 1);
+    plates[0] = add_plate(sim, width, 0, 0, 0, GP_WALL_FREE_SLIP, -sinking);
+    plates[1] = add_plate(sim, 0, -below, 0, 2 * height, GP_WALL_NO_SLIP, 0);
+    plates[2] = add_plate(sim, width, 2 * height, width, -below, GP_WALL_NO_SLIP, 0);
+    CHECK(gp_run(sim, from));
+    for (k = 0; k < 3; ++k)
+        before[k] = walls_load(sim, plates[k]);
+    CHECK(gp_run(sim, c->end));
+    for (k = 0; k < 3; ++k)
+        after[k] = walls_load(sim, plates[k]);
+    normal = after[2].impulse_x - before[2].impulse_x - (after[1].impulse_x - before[1].impulse_x);
+    shear = after[1].impulse_y - before[1].impulse_y + after[2].impulse_y - before[2].impulse_y;
+    printf("friction %.5g traction over normal force of the walls\n", fabs(shear / normal));
+    printf("floor %.5g of the weight\n", fabs(after[0].impulse_y - before[0].impulse_y) / (c->end - from) / weight);
+    printf("walls %.5g of the weight\n", fabs(shear) / (c->end - from) / weight);
+    walls_print_cost(sim);
+    gp_destroy(sim);
+}

@@ -1,0 +1,99 @@
+// Rest: gp_state.at_rest in gp.h defines it with these numbers.
+#include <algorithm>
+#include <cmath>
+
+#include "diagnostics.hpp"
+
+namespace gp {
+
+namespace {
+
+constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_unbalanced = 0.01;
+// Grains at the tips may tremble for ever, kicked to and fro within a step. Below 200 particles two are more than 1 %.
+constexpr double trembling_particles = 2, rest_unbalanced_few = 0.05;
+constexpr double plate_unbalanced = 0.05; // of a plate's load, that the material does not bear
+
+double unbalanced_share_at_rest(int64_t particles) {
+    return std::max(rest_unbalanced,
+                    std::min(trembling_particles / static_cast<double>(particles), rest_unbalanced_few));
+}
+
+// The way that a plate has still before it by its own motion, as a box about where it is now.
+Box way_ahead(const Plate &plate, double time) {
+    Box way;
+    const auto without_end = [&](const Vector &velocity) {
+        (velocity.x() < 0 ? way.x_min : way.x_max) = velocity.x() == 0 ? 0.0 : std::copysign(INFINITY, velocity.x());
+        (velocity.y() < 0 ? way.y_min : way.y_max) = velocity.y() == 0 ? 0.0 : std::copysign(INFINITY, velocity.y());
+    };
+    const Plate::Motion motion = plate.motion();
+    const MotionTable &table = plate.spec().table;
+    if (motion.driven) {
+        without_end(motion.driven_velocity);
+    } else if (table.empty()) {
+        without_end(plate.spec().velocity);
+    } else {
+        const Vector now = table.displacement(time);
+        for (std::size_t k = 0; k < table.t.size(); ++k)
+            if (table.t[k] > time) {
+                way.x_min = std::min(way.x_min, table.x[k] - now.x());
+                way.x_max = std::max(way.x_max, table.x[k] - now.x());
+                way.y_min = std::min(way.y_min, table.y[k] - now.y());
+                way.y_max = std::max(way.y_max, table.y[k] - now.y());
+            }
+    }
+    return way;
+}
+
+// Has a loaded plate come to rest on the material? energy: below this it counts as such, J/m.
+bool rests(const World &world, const Plate &plate, double energy) {
+    const Segment &s = plate.segment();
+    const double mass = s.length * (plate.spec().mass > 0 ? plate.spec().mass : world.constants.plate_mass);
+    const double speed = plate.motion().fall_speed, load = plate.spec().load * s.length;
+    return 0.5 * mass * speed * speed <= energy &&
+           std::abs(load + s.normal.dot(plate.force)) <= plate_unbalanced * load;
+}
+
+// Does a plate move, or will it, that the material feels or comes to feel?
+bool plates_move(const World &world, double energy) {
+    const Particles &p = world.particles;
+    if (p.count == 0)
+        return false;
+    const auto [x_min, x_max] = std::minmax_element(p.x.begin(), p.x.begin() + p.count);
+    const auto [y_min, y_max] = std::minmax_element(p.y.begin(), p.y.begin() + p.count);
+    const Box material{*x_min, *x_max, *y_min, *y_max};
+    return std::any_of(world.walls.plates.begin(), world.walls.plates.end(), [&](const Plate &plate) {
+        Box way = way_ahead(plate, world.clock.time);
+        const Segment &s = plate.segment();
+        if (plate.loaded() && !rests(world, plate, energy)) {
+            way.x_min -= s.normal.x() < 0 ? INFINITY : 0.0;
+            way.x_max += s.normal.x() > 0 ? INFINITY : 0.0;
+            way.y_min -= s.normal.y() < 0 ? INFINITY : 0.0;
+            way.y_max += s.normal.y() > 0 ? INFINITY : 0.0;
+        }
+        if (way.x_min == way.x_max && way.y_min == way.y_max)
+            return false;
+        const Vector end = s.origin + s.length * s.tangent;
+        Box swept{std::min(s.origin.x(), end.x()) + way.x_min, std::max(s.origin.x(), end.x()) + way.x_max,
+                  std::min(s.origin.y(), end.y()) + way.y_min, std::max(s.origin.y(), end.y()) + way.y_max};
+        if (world.constants.period) { // it has images at every x
+            swept.x_min = -INFINITY;
+            swept.x_max = INFINITY;
+        }
+        return swept.gap(material) <= world.constants.horizon;
+    });
+}
+
+} // namespace
+
+bool is_at_rest(const World &world, double kinetic) {
+    const double scale = std::max(world.ledger.initial, world.ledger.largest_kinetic);
+    const Constants &c = world.constants;
+    if (plates_move(world, rest_kinetic * scale))
+        return false;
+    if (world.clock.step == 0)
+        return kinetic == 0 && c.gravity.norm() == 0;
+    return kinetic <= rest_kinetic * scale && world.plastic_power * c.time_scale <= rest_plastic * scale &&
+           world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
+}
+
+} // namespace gp

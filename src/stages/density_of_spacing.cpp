@@ -1,0 +1,63 @@
+// Ties the density to the spacing of the particles where the material flows.
+//
+// The density integrates the divergence of the fitted gradient, one condition for the two velocities of a particle. On a
+// lattice the weight is borne by a pressure; on a disordered set a part of it (.1 g after a strain of some hundred) acts on
+// motions without a fitted divergence anywhere, and as K^-1 takes the spacing out of the gradient, nothing sees what they
+// add up to: an inclined layer of ten spacings sank by half in 20 s, its density that of the start.
+//
+// So what flows becomes as dense as its particles are where these are closer than on the lattice,
+//   d rho/dt += gamma / spacing_strain (rho0 N / N0 - rho), where that is positive,
+// and the pressure drives them apart. By the strain, as by it they come together: it knows no time, does nothing at rest,
+// and leaves what does not yield alone. Beside a free surface N is too small to say more than that rows below are full. The
+// stretched first become whole, which takes no energy. It raises densities and lowers none: with what differs from particle to
+// particle smoothed by the density diffusion, this is no matter; without diffusion layers rise by some hundredths.
+//
+// Measured on disordered layers of 10 | 20 spacings at 26 degrees, mean height over that of the start from 6 to 12 s | from
+// 4 to 8 s (without this .72 | .95, and falling), by spacing_strain:
+//   1 1.014 | 1.001    2 1.010 | 1.000    3 1.004 | .998    5 .998 | .997    10 .986 | .995
+// with a ceiling of 1.02 1.002, of 1.2 1.003. What N has to have more than N0 before it counts is lost in the end, under a
+// loaded lid as well (a hundredth: .990 of the height; none: .998). At once, or within 30 dl / c0 in place of a strain,
+// crowded grains in flight got three times their energy and more.
+#include <algorithm>
+#include <cmath>
+
+#include "material/compression.hpp"
+#include "parallel.hpp"
+#include "stages/stages.hpp"
+
+namespace gp::stages {
+
+namespace {
+
+constexpr double spacing_strain = 3; // in which the density makes up for most of the difference
+// Most that it makes of it, over rho0: particles put on top of each other shall part, not burst.
+constexpr double spacing_ceiling = 1.05;
+
+} // namespace
+
+void density_of_spacing(World &world) {
+    Particles &p = world.particles;
+    const double inverse = 1.0 / world.constants.lattice.number_density;
+    const double strains = world.clock.dt / spacing_strain;
+    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+        double lost = 0;
+        for (int64_t i = begin; i < end; ++i) {
+            const MaterialConstants &m = world.material_of(i);
+            const double rest = m.density, before = p.density[i];
+            double target = rest * std::min(p.crowding[i] * inverse, spacing_ceiling);
+            if (target <= before)
+                continue;
+            if (before < rest)
+                target = std::min(target, rest);
+            const double dxx = 0.5 * (p.lxx[i] - p.lyy[i]), dxy = 0.5 * (p.lxy[i] + p.lyx[i]);
+            const double pace = strains * 2 * std::sqrt(dxx * dxx + dxy * dxy);
+            const double after = before + pace / (1 + pace) * (target - before);
+            lost +=
+                compression_energy(before / rest, m.bulk_modulus) - compression_energy(after / rest, m.bulk_modulus);
+            p.density[i] = after;
+        }
+        world.sums[block].spaced = p.volume * lost;
+    });
+}
+
+} // namespace gp::stages

@@ -1,0 +1,91 @@
+// The shear traction of plates on what slips along them (wall_law.hpp). Friction can hold, not drive. Runs over the contacts
+// in their order; contacts are few.
+//
+// A stress or a stress ratio carried on through the surface by ghosts, and the zero-energy penalty towards them, braked a
+// sliding layer of 2, 3, 6, 10 rows with 1.11, 1.14, 1.09, 1.05 of mu times its weight, and put 18 % too much on the rough walls
+// of a silo; the run-out of a collapse erred by 15 % at L/dl = 32 for it, and depended on the horizon.
+#include "stages/push.hpp"
+#include "stages/rows.hpp"
+#include "stages/stages.hpp"
+#include "stages/wall_law.hpp"
+
+namespace gp::stages {
+
+namespace {
+
+// Between surface and particle the mean rate is slip over distance, y; of a curved profile that is the rate at y/2. The gradient
+// that the particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and
+// the rate at the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. direction: 1 or -1, of the slip along the
+// tangent.
+SurfaceRate surface_rate(const World &world, const Contact &contact, double direction) {
+    const Particles &p = world.particles;
+    const Constants &c = world.constants;
+    const int64_t i = contact.particle;
+    const Plate &plate = world.walls.plates[contact.plate];
+    const Segment &s = plate.segment();
+    const double dt = world.clock.dt;
+    const Vector at = world.walls.nearest_image(plate, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was
+    const double share = c.one_sided.share(s.distance(at) / c.horizon);
+    const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
+    return {(1 + share) * rate_at_wall(s, at, 1.0, c.spacing), -share * inside};
+}
+
+// Shear over normal traction that a particle's material bears on planes along the plate, at the yield mu p of the rate at the
+// surface. What stretches along the plate as well has less left to shear: of the deviator s at yield, its part s_nn across
+// the plate is the particle's own (the material's, not the wall's); with mu N in full, R90 of the collapse with a = 1.25 is
+// 24, 10 % too small at L/dl = 16, 32. Inside the yield surface it may shear until it is there.
+double rough_ratio(const World &world, const Contact &contact, double mu) {
+    const Particles &p = world.particles;
+    const int64_t i = contact.particle;
+    const Vector &n = world.walls.plates[contact.plate].segment().normal;
+    const double across = p.sxx[i] * (n.x() * n.x() - n.y() * n.y()) + 2 * p.sxy[i] * n.x() * n.y(); // s_nn
+    const double whole =
+        std::max(equivalent_stress({p.sxx[i], p.sxy[i]}), world.map_of(i).mu_s * p.pressure[i]); // |s| at yield
+    const double shear2 = whole * whole - across * across, normal = whole - mu * across;
+    if (normal <= 0)
+        return mu; // free of stress
+    return shear2 > 0 ? mu * std::sqrt(shear2) / normal : 0.0;
+}
+
+} // namespace
+
+void wall_friction(World &world) {
+    const Particles &p = world.particles;
+    const bool sticks =
+        world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
+    for (const Contact &contact : world.walls.contacts) {
+        const Plate &plate = world.walls.plates[contact.plate];
+        const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
+        if (plate.spec().friction == GP_WALL_FREE_SLIP || (rough && sticks))
+            continue;
+        const int64_t i = contact.particle;
+        const Segment &s = plate.segment();
+        const double normal = s.normal.x() * contact.force_x + s.normal.y() * contact.force_y;
+        const double slip = s.tangent.dot(Vector(p.vx[i], p.vy[i]) - plate.velocity());
+        if (slip == 0 || normal <= 0)
+            continue;
+        const double direction = slip > 0 ? 1 : -1;
+        // A particle without stress of its own is under what its plate presses it with.
+        const double pressure = std::max(p.pressure[i], normal * world.constants.spacing);
+        const double once = normal * world.clock.dt / world.material_of(i).density; // m/s, of friction 1
+        const ReturnMap &law = world.map_of(i);
+        const SurfaceRate rate = surface_rate(world, contact, direction);
+        const auto ratio_of = [&](double mu) {
+            return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(plate.spec(), mu);
+        };
+        // The share of mu that acts along the plate depends on mu itself, weakly.
+        double mu = law.mu_s;
+        for (int pass = 0; pass < 2; ++pass)
+            mu = friction_left(law, rate, std::abs(slip), once * ratio_of(mu) / std::max(mu, 1e-300), pressure);
+        const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
+        if (stop <= 0)
+            continue;
+        const double before = world.ledger.dissipated;
+        push_by_plate(world, contact, -direction * stop * s.tangent);
+        // The plastic part has counted the shear towards the ghosts of a rough plate already; that is taken off the walls'.
+        if (rough)
+            world.ledger.walls += world.ledger.dissipated - before;
+    }
+}
+
+} // namespace gp::stages
