@@ -47,8 +47,8 @@ void wall_contact(World &world) {
         if (approach <= 0)
             continue;
         const double slip = s.tangent.dot(relative);
-        const double mu = friction_of_blow(world, contact, approach,
-                                           {rate_at_wall(s, at, 1.0, world.constants.spacing), 0}, std::abs(slip));
+        const double mu = friction_of_blow(world, contact, approach, {rate_per_slip(s, at, world.constants.spacing), 0},
+                                           std::abs(slip));
         const double stop = std::min(std::abs(slip), mu * approach);
         push_by_plate(world, contact, approach * s.normal + (slip > 0 ? -stop : stop) * s.tangent);
     }

@@ -27,7 +27,7 @@ SurfaceRate surface_rate(const World &world, const Contact &contact, double dire
     const Vector at = world.walls.nearest_image(plate, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was
     const double share = c.one_sided.share(s.distance(at) / c.horizon);
     const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
-    return {(1 + share) * rate_at_wall(s, at, 1.0, c.spacing), -share * inside};
+    return {(1 + share) * rate_per_slip(s, at, c.spacing), -share * inside};
 }
 
 // Shear over normal traction that a particle's material bears on planes along the plate, at the yield mu p of the rate at the

@@ -9,9 +9,9 @@
 
 namespace gp::stages {
 
-// Mean shear rate, 1/s, between a plate's surface and a particle that slips along it.
-inline double rate_at_wall(const Segment &s, const Vector &at, double slip, double spacing) {
-    return slip / std::max(s.distance(at), contact_distance * spacing);
+// Mean shear rate between a plate's surface and a particle that slips along it, over the slip, 1/m.
+inline double rate_per_slip(const Segment &s, const Vector &at, double spacing) {
+    return 1.0 / std::max(s.distance(at), contact_distance * spacing);
 }
 
 // The rate at the plate's surface as a linear function of a particle's slip, 1/s: at = slope * slip + inside.
@@ -19,7 +19,8 @@ struct SurfaceRate {
     double slope, inside;
 };
 
-// mu(I) of the rate that is left after the friction of `per_mu` (m/s) for each unit of mu has taken what it can of the slip: the root of
+// mu(I) of the rate that is left after the friction of `per_mu` (m/s) for each unit of mu has taken what it can of the slip: the
+// root of
 //   rate = slope (slip - per_mu mu(rate)) + inside.
 // By the rate before the step large grains, which go from mu_s to mu_2 with the least motion, were held and let go by turns.
 inline double friction_left(const ReturnMap &law, const SurfaceRate &rate, double slip, double per_mu,
