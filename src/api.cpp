@@ -251,9 +251,13 @@ gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id) {
 }
 
 gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy) {
+    return gp_set_plate_motion(sim, plate, vx, vy, 0);
+}
+
+gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega) {
     return guard([&] {
         require_simulation(sim);
-        sim->sim.set_plate_velocity(plate, vx, vy);
+        sim->sim.set_plate_motion(plate, vx, vy, omega);
         return GP_OK;
     });
 }
@@ -398,15 +402,18 @@ gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load) {
         const World &world = readable(sim).world();
         require_choice("plate", plate, static_cast<int64_t>(world.walls.plates.size()));
         const Plate &p = world.walls.plates[plate];
-        const Vector moved = p.displacement(world.clock.time);
+        const Pose pose = p.pose(world.clock.time);
         gp_load filled{};
         filled.fx = p.force.x();
         filled.fy = p.force.y();
         filled.torque = p.torque;
-        filled.dx = moved.x();
-        filled.dy = moved.y();
+        filled.dx = pose.shift.x();
+        filled.dy = pose.shift.y();
         filled.impulse_x = p.impulse.x();
         filled.impulse_y = p.impulse.y();
+        filled.torque_pivot = p.torque_pivot;
+        filled.angle = pose.angle;
+        filled.impulse_torque = p.impulse_torque;
         return hand_out(load, filled, "gp_load");
     });
 }

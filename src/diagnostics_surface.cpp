@@ -38,7 +38,7 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
     std::vector<int64_t> place_of(world.listed.empty() ? 0 : p.count); // in the lists, where a sort was undone
     for (std::size_t place = 0; place < place_of.size(); ++place)
         place_of[world.listed[place]] = static_cast<int64_t>(place);
-    std::vector<int32_t> wall_of(world.walls.plates.size(), -1);
+    std::vector<int32_t> wall_of(world.walls.facets.size(), -1);
     for (int64_t i = 0; i < p.count + world.images.count; ++i) {
         const int64_t source = world.images.source(i);
         if (!connected[source])
@@ -56,10 +56,9 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
 // The mirror images of one particle in the plates that it is in contact with.
 void Surface::add_mirrored(const Walls &walls, int64_t place, const Vector &at, std::vector<int32_t> &wall_of) {
     for (int64_t c = walls.contact_start[place]; c < walls.contact_start[place + 1]; ++c) {
-        const int32_t id = walls.contacts[c].plate;
-        const Plate &plate = walls.plates[id];
-        const Segment &s = plate.segment();
-        const Vector image = walls.nearest_image(plate, at);
+        const int32_t id = walls.contacts[c].facet;
+        const Segment &s = walls.facets[id].segment;
+        const Vector image = walls.nearest_image(s, at);
         const double distance = s.distance(image), along = s.along(image), beyond = past_end * spacing_;
         if (distance > 2 * peak_radius * spacing_ || along < -beyond || along > s.length + beyond)
             continue;

@@ -34,28 +34,54 @@ gp_material default_material();
 gp_column default_column();
 gp_plate default_plate();
 
-// Displacement of a plate over time: a table of knots, or nothing.
+// How a rigid body moves: velocity of its pivot, and rate of turning.
+struct Motion {
+    Vector velocity = Vector::Zero(); // m/s
+    double omega = 0;                 // rad/s, counter-clockwise
+    bool operator==(const Motion &other) const { return velocity == other.velocity && omega == other.omega; }
+    bool any() const { return velocity != Vector::Zero() || omega != 0; }
+};
+
+// Displacement and turn of a plate over time: a table of knots, or nothing.
 struct MotionTable {
-    std::vector<double> t, x, y;
+    std::vector<double> t, x, y, angle; // s, m, m, rad; angle: empty where the plate does not turn
     bool empty() const { return t.empty(); }
     Vector displacement(double time) const;
+    double turn(double time) const;
     double last_time() const { return t.empty() ? 0.0 : t.back(); }
 };
 
 struct PlateSpec {
-    Segment segment; // where it stands at time 0, before its table displaces it
-    Vector end;      // end 1 of it, as it was given
-    int32_t friction;
-    double wall_mu;
-    Vector velocity;
+    std::vector<Vector> points;    // m, of the wetted line as given: at time 0, before the table displaces it
+    std::vector<Segment> segments; // between them
+    int32_t friction = GP_WALL_NO_SLIP;
+    double wall_mu = 0;
+    Vector pivot = Vector::Zero(); // m, about which it turns
+    Motion motion;                 // of a plate without a table
+    double surface_velocity = 0;   // m/s, along the line, of the surface alone
     MotionTable table;
-    Vector start; // displacement at time 0, of a plate without a table
-    double load;  // Pa on its back, towards the material; 0: the motion is prescribed
-    double mass;  // kg/m2 of a loaded plate; 0: chosen with the constants
+    Vector start = Vector::Zero(); // displacement at time 0, of a plate without a table
+    double start_angle = 0;        // rad, the same of its turn
+    double load = 0;               // Pa on its back, towards the material; 0: the motion is prescribed
+    double mass = 0;               // kg/m2 of a loaded plate; 0: chosen with the constants
+
+    // What follows from the points.
+    double length = 0;                   // m, of the line
+    Vector back_normal = Vector::Zero(); // of the straight way from the first point to the last: a load acts along it,
+    double back_length = 0;              // m, on this length
+    Vector middle = Vector::Zero();      // m, of the box around the points,
+    Vector extent = Vector::Zero();      // m, and its size
+    double farthest = 0;                 // m, from the pivot, of any point
+
+    explicit PlateSpec(std::vector<Vector> line);
+    void set_pivot(const Vector &at);
+    // Is a segment whose normal is this one within a distance of a point?
+    bool lies_at(const Vector &point, const Vector &normal, double within) const;
+    bool closed() const { return points.front() == points.back(); }
 };
 
-// Throws if a velocity prescribed for a loaded plate has a part along its normal. name: of the argument.
-void require_tangential(const PlateSpec &plate, const Vector &velocity, const char *name);
+// Throws if a motion prescribed for a loaded plate has a part along its normal, or turns it. name: of the argument.
+void require_tangential(const PlateSpec &plate, const Motion &motion, const char *name);
 
 // A column or a set of particles from the host.
 struct Body {
@@ -116,10 +142,12 @@ public:
     int32_t add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                           const double *vy);
     int32_t add_plate(const gp_plate &plate);
-    // From now on the plate has this constant velocity in place of its motion.
-    void drive_plate(int32_t plate, const Vector &velocity);
-    // Of a plate that was driven before the first step: how its table, which is gone, displaced it.
-    void set_plate_start(int32_t plate, const Vector &start);
+    // From now on the plate has this constant motion in place of its own.
+    void drive_plate(int32_t plate, const Motion &motion);
+    // Throws if a plate is too long to turn within the period. name: of the argument.
+    void require_room_to_turn(const PlateSpec &plate, const Motion &motion, const char *name) const;
+    // Of a plate that was driven before the first step: how its table, which is gone, displaced and turned it.
+    void set_plate_start(int32_t plate, const Vector &start, double angle);
 
     const gp_config &config() const { return config_; }
     Period period() const {

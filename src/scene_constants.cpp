@@ -102,11 +102,14 @@ struct Range {
     double span() const { return high > low ? high - low : 0.0; }
 };
 
-// The part of a plate's velocity that the material takes part in: a free-slip plate passes on its normal motion alone.
-Vector effective_velocity(const PlateSpec &plate, const Vector &velocity) {
-    if (plate.friction == GP_WALL_FREE_SLIP)
-        return plate.segment.normal * plate.segment.normal.dot(velocity);
-    return velocity;
+// Velocities of a plate that the material takes part in: a straight plate without friction passes on its normal motion alone.
+template <class Add> void add_velocities(const PlateSpec &plate, const Motion &motion, const Add &add) {
+    const Vector &n = plate.segments.front().normal, &v = motion.velocity;
+    const bool normal_only = plate.friction == GP_WALL_FREE_SLIP && plate.segments.size() == 1 && motion.omega == 0;
+    add(normal_only ? Vector(n * n.dot(v)) : v);
+    if (const double rim = motion.omega * plate.farthest; rim != 0) // of its farthest point, in the course of a turn
+        for (const Vector &turning : {Vector(rim, 0), Vector(-rim, 0), Vector(0, rim), Vector(0, -rim)})
+            add(v + turning);
 }
 
 // Largest difference between any two velocities with which the scene begins or which it prescribes.
@@ -121,12 +124,17 @@ double velocity_span(const Scene &scene) {
         y.add(v.y());
     };
     for (const PlateSpec &plate : scene.plates()) {
-        add(effective_velocity(plate, plate.velocity));
-        for (std::size_t k = 1; k < plate.table.t.size(); ++k) {
-            const double dt = plate.table.t[k] - plate.table.t[k - 1];
-            add(effective_velocity(plate, {(plate.table.x[k] - plate.table.x[k - 1]) / dt,
-                                           (plate.table.y[k] - plate.table.y[k - 1]) / dt}));
+        add_velocities(plate, plate.motion, add);
+        const MotionTable &table = plate.table;
+        for (std::size_t k = 1; k < table.t.size(); ++k) {
+            const double dt = table.t[k] - table.t[k - 1];
+            const double omega = table.angle.empty() ? 0.0 : (table.angle[k] - table.angle[k - 1]) / dt;
+            add_velocities(plate, {{(table.x[k] - table.x[k - 1]) / dt, (table.y[k] - table.y[k - 1]) / dt}, omega},
+                           add);
         }
+        for (const Segment &s : plate.segments)
+            if (plate.surface_velocity != 0)
+                add(plate.surface_velocity * s.tangent);
     }
     return std::hypot(x.span(), y.span());
 }
@@ -145,10 +153,9 @@ double fall_height(const Scene &scene, const Vector &gravity) {
     }
     const double half = 0.5 * scene.config().spacing;
     double lowest = height.low - half;
-    for (const PlateSpec &plate : scene.plates()) {
-        const Segment &s = plate.segment;
+    const auto add_floor = [&](const Segment &s) {
         if (s.normal.dot(up) <= 0)
-            continue;
+            return;
         // The stretch of the plate under the material.
         const double from = across.dot(s.origin), slope = across.dot(s.tangent);
         double t0 = 0, t1 = s.length;
@@ -157,12 +164,15 @@ double fall_height(const Scene &scene, const Vector &gravity) {
             t0 = std::max(t0, std::min(a, b));
             t1 = std::min(t1, std::max(a, b));
         } else if (from < width.low - half || from > width.high + half)
-            continue;
+            return;
         if (t0 > t1)
-            continue;
+            return;
         const double base = up.dot(s.origin), rise = up.dot(s.tangent);
         lowest = std::min({lowest, base + rise * t0, base + rise * t1});
-    }
+    };
+    for (const PlateSpec &plate : scene.plates())
+        for (const Segment &segment : plate.segments)
+            add_floor(segment);
     return height.high + half - lowest;
 }
 

@@ -112,7 +112,7 @@ private:
         int64_t covered = 0;
         const int64_t cells = for_each_cell(bodies[b], 1, [&](const Vector &point) {
             bool found = std::any_of(scene_.plates().begin(), scene_.plates().end(), [&](const PlateSpec &plate) {
-                return plate.segment.normal.dot(outward_) < -0.99 && plate.segment.nearest(point) < 0.5 * spacing_;
+                return plate.lies_at(point, -outward_, 0.5 * spacing_);
             });
             for (std::size_t c = 0; c < bodies.size() && !found; ++c)
                 found = borne_[c] && touches(bodies[c], -1, point);
@@ -135,7 +135,7 @@ private:
                 }
             double load = 0;
             for (const PlateSpec &plate : scene_.plates())
-                if (plate.segment.normal.dot(outward_) > 0.99 && plate.segment.nearest(point) < 0.5 * spacing_)
+                if (plate.lies_at(point, outward_, 0.5 * spacing_))
                     load = std::max(load, plate.load);
             sum.load += load;
         });
@@ -149,8 +149,7 @@ private:
         double least = INFINITY;
         for_each_cell(bodies[b], 1, [&](const Vector &point) {
             for (const PlateSpec &plate : scene_.plates())
-                if (plate.friction != GP_WALL_NO_SLIP && plate.segment.normal.dot(outward_) < -0.99 &&
-                    plate.segment.nearest(point) < 0.5 * spacing_)
+                if (plate.friction != GP_WALL_NO_SLIP && plate.lies_at(point, -outward_, 0.5 * spacing_))
                     least = std::min(least, plate.friction == GP_WALL_COULOMB ? plate.wall_mu : 0.0);
             for (std::size_t c = 0; c < bodies.size(); ++c)
                 if (borne_[c] && touches(bodies[c], -1, point))
@@ -185,8 +184,7 @@ private:
         const auto covered_at = [&](int side) {
             return [this, b, side](const Vector &point) {
                 for (const PlateSpec &plate : scene_.plates())
-                    if (plate.segment.normal.dot(side * along()) < -0.99 &&
-                        plate.segment.nearest(point) < 0.5 * spacing_)
+                    if (plate.lies_at(point, -side * along(), 0.5 * spacing_))
                         return true;
                 for (std::size_t c = 0; c < borne_.size(); ++c)
                     if (c != b && lies_beside(c, side, point))

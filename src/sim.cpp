@@ -217,19 +217,22 @@ int32_t Sim::add_plate(const gp_plate &plate) {
     return id;
 }
 
-void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
+void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
     require_choice("plate", plate, static_cast<int64_t>(scene_.plates().size()));
     require_finite("vx", vx);
     require_finite("vy", vy);
-    require_tangential(scene_.plates()[plate], {vx, vy}, "plate");
+    require_finite("omega", omega);
+    const Motion motion{{vx, vy}, omega};
+    require_tangential(scene_.plates()[plate], motion, "plate");
+    scene_.require_room_to_turn(scene_.plates()[plate], motion, "plate");
     if (started_) {
         Plate &driven = world_->walls.plates[plate];
-        driven.drive(world_->clock.time, {vx, vy});
+        driven.drive(world_->clock.time, motion);
         if (driven.gap <= 0) // the lists and the step's size count on the span from the next step on
-            world_->velocity_span = std::max(world_->velocity_span, driven.velocity().norm() + world_->fastest);
+            world_->velocity_span = std::max(world_->velocity_span, driven.fastest() + world_->fastest);
         ++epoch_;
     } else {
-        scene_.drive_plate(plate, {vx, vy});
+        scene_.drive_plate(plate, motion);
         scene_changed();
     }
 }

@@ -109,6 +109,7 @@ void undo_step(World &world, UndoneOrder order) {
     world.ledger = start.ledger;
     world.ledger.wound = wound;
     world.walls.plates = start.plates;
+    world.walls.place_facets();
     world.shifted = start.shifted;
     if (sorted && order == UndoneOrder::before)
         undo_sort(world); // last: it needs memory

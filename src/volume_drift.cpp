@@ -60,7 +60,7 @@ private:
 
 // Where its plate is: ghosts themselves are placed in the next step, and an undone one has done so.
 void add_ghost(const Walls &walls, int32_t ghost, Neighborhood &about) {
-    const Segment &s = walls.plates[walls.ghost_plate[ghost]].segment();
+    const Segment &s = walls.facets[walls.ghost_facet[ghost]].segment;
     const Vector at = s.origin + walls.ghost_along[ghost] * s.tangent - walls.ghost_depth[ghost] * s.normal;
     about.add(at.x() + (walls.ghost_shift.empty() ? 0.0 : walls.ghost_shift[ghost]), at.y());
 }

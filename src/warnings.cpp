@@ -50,10 +50,9 @@ double ledger_scale(const Ledger &ledger) {
 const Contact *passed_contact(const World &world) {
     const Particles &p = world.particles;
     for (const Contact &contact : world.walls.contacts) {
-        const Plate &plate = world.walls.plates[contact.plate];
-        const Vector moved = world.clock.dt * plate.velocity();
-        const Vector at = world.walls.nearest_image(plate, {p.x[contact.particle], p.y[contact.particle]}) - moved;
-        const Segment &s = plate.segment();
+        const Segment &s = world.walls.facets[contact.facet].segment;
+        const Vector now = world.walls.nearest_image(s, {p.x[contact.particle], p.y[contact.particle]});
+        const Vector at = now - world.clock.dt * world.walls.plate_of(contact.facet).velocity_at(now);
         if (s.distance(at) < -passed_share * world.constants.spacing && s.covers(s.along(at), 0))
             return &contact;
     }
@@ -154,7 +153,7 @@ std::vector<std::string> Warnings::of_step(const World &world) {
                         c.sound_speed * std::sqrt(world.max_compression / good_compression)));
     for (std::size_t k = 0; k < world.walls.plates.size(); ++k) {
         const Plate &plate = world.walls.plates[k];
-        const double speed = plate.velocity().norm();
+        const double speed = plate.fastest();
         if (plate.gap <= 0 && speed > plate_share * c.sound_speed && is_new(fast_plate))
             texts.push_back(format_text("plate %zu moves at %g m/s at time %g s, %g of the sound speed: set "
                                         "gp_config.sound_speed to about %g or drive it slower",
@@ -166,10 +165,10 @@ std::vector<std::string> Warnings::of_step(const World &world) {
     if (const Contact *contact = passed_contact(world); contact && is_new(passed_plate)) {
         const Particles &p = world.particles;
         const int64_t i = contact->particle;
-        texts.push_back(
-            format_text("plate %d passes over particle %lld at (%g, %g) m, time %g s: drive the plate slower, "
-                        "or keep plates that meet a spacing apart",
-                        contact->plate, static_cast<long long>(p.id[i]), p.x[i], p.y[i], time));
+        texts.push_back(format_text(
+            "plate %d passes over particle %lld at (%g, %g) m, time %g s: drive the plate slower, "
+            "or keep plates that meet a spacing apart",
+            world.walls.facets[contact->facet].plate, static_cast<long long>(p.id[i]), p.x[i], p.y[i], time));
     }
     if (by_number_density(c.scheme)) // the paper's schemes have no penalty, and lose energy by their nature
         return texts;

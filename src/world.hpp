@@ -89,7 +89,7 @@ struct StepStart {
 // What the neighbour lists were made of. A checkpoint keeps it in place of the lists, which it makes anew from it.
 struct ListOrigin {
     Field<double> x, y; // m, of the particles in sorted order
-    std::vector<Plate::Motion> plates;
+    std::vector<Plate::State> plates;
 
     int64_t bytes() const { return static_cast<int64_t>((x.capacity() + y.capacity()) * sizeof(double)); }
 };

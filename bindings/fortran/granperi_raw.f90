@@ -172,8 +172,8 @@ module granperi_raw
         !! up to wall_mu times the normal traction, or what the material bears, if that is less
 
     !> Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn
-    !> by 50 degrees at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its
-    !> own.
+    !> by 50 degrees at most are one wall, as the segments of one plate's line are: the joint is not felt. The paper's
+    !> schemes take each segment for a wall of its own.
     type, bind(c) :: gp_plate
         integer(c_int32_t) :: struct_size = 0
         real(c_double) :: x0
@@ -207,11 +207,34 @@ module granperi_raw
         real(c_double) :: normal_pressure
             !! Pa, a load on the plate's back: the plate moves along its normal as a rigid body under this load and the
             !! material's reaction (its own weight is part of the load), and along its tangent as prescribed: vx, vy
-            !! then have no normal part, and there is no table. 0: all of the motion is prescribed [0]
+            !! then have no normal part, and there is no table and no turn. Of a line of several points the straight way
+            !! from the first to the last counts; a closed one bears no load. 0: all of the motion is prescribed [0]
         real(c_double) :: mass_per_length
             !! kg/m2, inertia of a loaded plate per length; only with normal_pressure. 0: light, as half a spacing of
             !! the heaviest material: it follows its load at once. A heavy plate rings on confined material, which damps
             !! its slow motion little [0]
+        integer(c_int64_t) :: n_points
+            !! 0: the plate is the segment from (x0, y0) to (x1, y1); 2 to 10 000 000: it is the line through that many
+            !! points, with x0 to y1 0: one wall, one friction, one motion, one load. Its segments are no shorter than a
+            !! tenth of the spacing, and it does not cross, touch or fold back on itself. No joint of it is felt, but
+            !! for corners of more than 50 degrees and bulges of more than that within a horizon [0]
+        type(c_ptr) :: point_x
+            !! m, shape (n_points); body on the left of the way. Last point = first point: a closed line, as a drum
+            !! (clockwise: material inside) or an obstacle (counter-clockwise) [NULL]
+        type(c_ptr) :: point_y !! m, shape (n_points) [NULL]
+        real(c_double) :: pivot_x
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double) :: pivot_y
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double) :: omega !! rad/s, constant rate of turning, counter-clockwise; not with a table or a load [0]
+        type(c_ptr) :: knot_angle
+            !! rad, shape (n_knots), counter-clockwise, as knot_x; knot_x and knot_y may then both be NULL, for none.
+            !! NULL: the table does not turn the plate [NULL]
+        real(c_double) :: surface_velocity
+            !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
+            !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
     end type
 
     integer(c_int32_t), parameter :: GP_LOG_INFO = 0
@@ -323,11 +346,12 @@ module granperi_raw
             !! plastic power of the last step would dissipate less than 1e-4 of it in the scene's free-fall time, and no
             !! more than 1 % of the mass is accelerated by more than 0.05 g, on average over some 20 steps (single
             !! grains may tremble on a plate; of fewer than 200 particles two, but no more than 5 % of the mass). And no
-            !! plate has motion of its own left (a velocity, also of gp_set_plate_velocity, or knots that displace it
-            !! further) that is within the horizon of the box around all particles, or will come so near on its way, as
-            !! straight lines between here and the farthest places that it comes to have it; a plate under a load there
-            !! rests itself: its kinetic energy is below the same 1e-6, and the material bears its load within 5 %. The
-            !! energy scale is the largest of the initial energy of the ledger and the largest kinetic energy so far
+            !! plate has motion of its own left (a velocity or a turn, also of gp_set_plate_motion, a belt, or knots
+            !! that displace it further) that is within the horizon of the box around all particles, or will come so
+            !! near on its way, as straight lines between here and the farthest places that it comes to have it; a plate
+            !! under a load there rests itself: its kinetic energy is below the same 1e-6, and the material bears its
+            !! load within 5 %. The energy scale is the largest of the initial energy of the ledger and the largest
+            !! kinetic energy so far
         integer(c_int64_t) :: collisions !! colliding pairs so far ([1] 2.9), each step's counted anew
         real(c_double) :: wall_seconds !! s of wall-clock time inside the steps so far
         real(c_double) :: sound_speed !! m/s, c0 in use
@@ -386,11 +410,14 @@ module granperi_raw
         integer(c_int32_t) :: struct_size = 0 !! set by the caller
         real(c_double) :: fx !! N/m, force of the material on the plate over the last step
         real(c_double) :: fy !! N/m, force of the material on the plate over the last step
-        real(c_double) :: torque !! N, its moment about the plate's end 0
-        real(c_double) :: dx !! m, displacement of the plate since the start
-        real(c_double) :: dy !! m, displacement of the plate since the start
+        real(c_double) :: torque !! N, its moment about the plate's first point, counter-clockwise
+        real(c_double) :: dx !! m, displacement of the plate, where it turns of its pivot, since the start
+        real(c_double) :: dy !! m, displacement of the plate, where it turns of its pivot, since the start
         real(c_double) :: impulse_x !! N s/m, integral of fx and fy over time since the start
         real(c_double) :: impulse_y !! N s/m, integral of fx and fy over time since the start
+        real(c_double) :: torque_pivot !! N, moment of the force about the plate's pivot, counter-clockwise
+        real(c_double) :: angle !! rad, by which it has turned since the start
+        real(c_double) :: impulse_torque !! N s, integral of torque_pivot over time since the start
     end type
 
     type, bind(c) :: gp_plan_entry
@@ -572,6 +599,19 @@ module granperi_raw
             integer(c_int32_t), value :: plate
             real(c_double), value :: vx
             real(c_double), value :: vy
+            integer(c_int32_t) :: answer
+        end function
+
+        !> The same for any rigid motion: the plate's pivot moves at (vx, vy), m/s, and the plate turns about it at
+        !> omega, rad/s, counter-clockwise. gp_set_plate_velocity is this with omega 0. A loaded plate does not turn:
+        !> GP_E_ARGUMENT.
+        function gp_set_plate_motion(sim, plate, vx, vy, omega) bind(c, name="gp_set_plate_motion") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: plate
+            real(c_double), value :: vx
+            real(c_double), value :: vy
+            real(c_double), value :: omega
             integer(c_int32_t) :: answer
         end function
 

@@ -307,7 +307,8 @@ contains
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_plate( &
-            x0, y0, x1, y1, friction, wall_mu, vx, vy, normal_pressure, mass_per_length, status, message) result(made)
+            x0, y0, x1, y1, friction, wall_mu, vx, vy, normal_pressure, mass_per_length, pivot_x, pivot_y, omega, &
+            surface_velocity, status, message) result(made)
         real(c_double), intent(in), optional :: x0
             !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
             !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
@@ -335,11 +336,23 @@ contains
         real(c_double), intent(in), optional :: normal_pressure
             !! Pa, a load on the plate's back: the plate moves along its normal as a rigid body under this load and the
             !! material's reaction (its own weight is part of the load), and along its tangent as prescribed: vx, vy
-            !! then have no normal part, and there is no table. 0: all of the motion is prescribed [0]
+            !! then have no normal part, and there is no table and no turn. Of a line of several points the straight way
+            !! from the first to the last counts; a closed one bears no load. 0: all of the motion is prescribed [0]
         real(c_double), intent(in), optional :: mass_per_length
             !! kg/m2, inertia of a loaded plate per length; only with normal_pressure. 0: light, as half a spacing of
             !! the heaviest material: it follows its load at once. A heavy plate rings on confined material, which damps
             !! its slow motion little [0]
+        real(c_double), intent(in), optional :: pivot_x
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double), intent(in), optional :: pivot_y
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double), intent(in), optional :: omega
+            !! rad/s, constant rate of turning, counter-clockwise; not with a table or a load [0]
+        real(c_double), intent(in), optional :: surface_velocity
+            !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
+            !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_plate) :: made
@@ -357,6 +370,10 @@ contains
         if (present(vy)) made%vy = vy
         if (present(normal_pressure)) made%normal_pressure = normal_pressure
         if (present(mass_per_length)) made%mass_per_length = mass_per_length
+        if (present(pivot_x)) made%pivot_x = pivot_x
+        if (present(pivot_y)) made%pivot_y = pivot_y
+        if (present(omega)) made%omega = omega
+        if (present(surface_velocity)) made%surface_velocity = surface_velocity
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.

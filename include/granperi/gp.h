@@ -22,7 +22,7 @@
  *     files and messages; they are in force inside callbacks, and after a call as they were before.
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
  *   - Inside a callback the simulation may be read (gp_get_..., gp_copy_field), saved (gp_save), written to its open output
- *     (gp_output_write) and driven (gp_set_plate_velocity). Every other call on it returns GP_E_STATE.
+ *     (gp_output_write) and driven (gp_set_plate_velocity, gp_set_plate_motion). Every other call on it returns GP_E_STATE.
  *   - Undefined, and not looked for: a simulation after its gp_destroy, one simulation in two threads at the same time, any
  *     call from inside the log, pointers that do not point to what is said. NULL for a simulation is GP_E_ARGUMENT.
  *
@@ -227,7 +227,8 @@ enum {
 };
 
 /* Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn by 50 degrees
- * at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its own. */
+ * at most are one wall, as the segments of one plate's line are: the joint is not felt. The paper's schemes take each segment
+ * for a wall of its own. */
 
 typedef struct gp_plate {
     uint32_t struct_size;
@@ -245,11 +246,28 @@ typedef struct gp_plate {
     const double *knot_y;   /* m, shape (n_knots) */
     double normal_pressure; /* Pa, a load on the plate's back: the plate moves along its normal as a rigid body under this
                                load and the material's reaction (its own weight is part of the load), and along its
-                               tangent as prescribed: vx, vy then have no normal part, and there is no table.
+                               tangent as prescribed: vx, vy then have no normal part, and there is no table and no turn.
+                               Of a line of several points the straight way from the first to the last counts; a closed
+                               one bears no load.
                                0: all of the motion is prescribed [0] */
     double mass_per_length; /* kg/m2, inertia of a loaded plate per length; only with normal_pressure. 0: light, as half
                                a spacing of the heaviest material: it follows its load at once. A heavy plate
                                rings on confined material, which damps its slow motion little [0] */
+    int64_t n_points;       /* 0: the plate is the segment from (x0, y0) to (x1, y1); 2 to 10 000 000: it is the line
+                               through that many points, with x0 to y1 0: one wall, one friction, one motion, one load.
+                               Its segments are no shorter than a tenth of the spacing, and it does not cross, touch or
+                               fold back on itself. No joint of it is felt, but for corners of more than 50 degrees and
+                               bulges of more than that within a horizon [0] */
+    const double *point_x;  /* m, shape (n_points); body on the left of the way. Last point = first point: a closed line,
+                               as a drum (clockwise: material inside) or an obstacle (counter-clockwise) [NULL] */
+    const double *point_y;  /* m, shape (n_points) [NULL] */
+    double pivot_x, pivot_y; /* m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that
+                               turns in a periodic scene is no longer, corner to corner, than the period [0, 0] */
+    double omega;           /* rad/s, constant rate of turning, counter-clockwise; not with a table or a load [0] */
+    const double *knot_angle; /* rad, shape (n_knots), counter-clockwise, as knot_x; knot_x and knot_y may then both be NULL,
+                               for none. NULL: the table does not turn the plate [NULL] */
+    double surface_velocity; /* m/s, along the line from its first point to its last, of the wall's surface alone, which
+                               stays where it is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0] */
 } gp_plate;
 
 /* Fills *plate with a fixed no-slip plate: its ends have to be set. size: sizeof(gp_plate). */
@@ -284,6 +302,10 @@ GP_API gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 /* The host drives the plate at this velocity (m/s) from now on, from where it is; replaces constant velocity or table.
  * Possible at any time, also from a callback. */
 GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy);
+
+/* The same for any rigid motion: the plate's pivot moves at (vx, vy), m/s, and the plate turns about it at omega, rad/s,
+ * counter-clockwise. gp_set_plate_velocity is this with omega 0. A loaded plate does not turn: GP_E_ARGUMENT. */
+GP_API gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
 
 /* ------------------------------------------------------------------------------------------------ running */
 
@@ -427,8 +449,8 @@ typedef struct gp_state {
                                       in the scene's free-fall time, and no more than 1 % of the mass is accelerated by
                                       more than 0.05 g, on average over some 20 steps (single grains may tremble on a
                                       plate; of fewer than 200 particles two, but no more than 5 % of the mass).
-                                      And no plate has motion of its own left (a velocity, also of
-                                      gp_set_plate_velocity, or knots that displace it further) that is within the horizon
+                                      And no plate has motion of its own left (a velocity or a turn, also of
+                                      gp_set_plate_motion, a belt, or knots that displace it further) that is within the horizon
                                       of the box around all particles, or will come so near on its way, as straight lines
                                       between here and the farthest places that it comes to have it; a plate under a load
                                       there rests itself: its kinetic energy is below the same 1e-6, and the material bears
@@ -500,9 +522,12 @@ GP_API gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int6
 typedef struct gp_load {
     uint32_t struct_size; /* set by the caller */
     double fx, fy;        /* N/m, force of the material on the plate over the last step */
-    double torque;        /* N, its moment about the plate's end 0 */
-    double dx, dy;        /* m, displacement of the plate since the start */
+    double torque;        /* N, its moment about the plate's first point, counter-clockwise */
+    double dx, dy;        /* m, displacement of the plate, where it turns of its pivot, since the start */
     double impulse_x, impulse_y; /* N s/m, integral of fx and fy over time since the start */
+    double torque_pivot;  /* N, moment of the force about the plate's pivot, counter-clockwise */
+    double angle;         /* rad, by which it has turned since the start */
+    double impulse_torque; /* N s, integral of torque_pivot over time since the start */
 } gp_load;
 
 /* What the material does to a plate, and where the plate has got to; load->struct_size has to be set. */

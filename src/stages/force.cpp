@@ -135,10 +135,10 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
         a += own_half * inner_gradient(world, i); // C without the penalty's part
         // No shear traction through the surface: it is the stage wall_friction's, or the implicit solve's. Where the plate is
         // not rough, the gradient leaves out the same component.
-        const Plate &plate = world.walls.plates[contact.plate];
-        const Segment &s = plate.segment();
+        const Facet &facet = world.walls.facets[contact.facet];
+        const Segment &s = facet.segment;
         const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
-        const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
+        const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
         const bool sticks = rough && by_number_density(world.constants.scheme);
         contact_force(v, sticks ? a : through, rough ? a : through, contact);
         // A wall only pushes.

@@ -15,7 +15,7 @@ struct View {
     Rows rows;
     Clusters clusters;
     const double *x, *y, *vx, *vy;
-    const Plate *plates;
+    const Facet *facets;
     Contact *contacts;
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, lattice_moment;
@@ -90,7 +90,7 @@ GP_INLINE void finish(const View &v, int64_t i, Moments m) {
         Moments own;
         add_moments(own, v.rows.ghosts(*contact), Rows::ghost_count(*contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
                     v.gy, v.gvx, v.gvy, v.inverse_radius);
-        drop_wall_shear(v.plates[contact->plate], own.mxx, own.mxy, own.myx, own.myy);
+        drop_wall_shear(v.facets[contact->facet], own.mxx, own.mxy, own.myx, own.myy);
         m += own;
     }
     SymmetricTensor g = inverse_shape(m, v.lattice_moment);
@@ -156,7 +156,7 @@ View view_of(World &world, const ExchangeView &exchange) {
             p.y.data(),
             p.vx.data(),
             p.vy.data(),
-            w.plates.data(),
+            w.facets.data(),
             w.contacts.data(),
             w.ghost_x.data(),
             w.ghost_y.data(),

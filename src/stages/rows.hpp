@@ -69,17 +69,17 @@ template <class Body> void for_each_cluster_block(const World &world, const Body
 
 // A plate with its own idea of friction passes no shear: of a sum of velocity differences (x) ways to its ghosts, the
 // change along the normal of the velocity along the plate, t.M.n, is left out.
-GP_INLINE void drop_shear(const Plate &plate, double &xx, double &xy, double &yx, double &yy) {
-    const Vector &t = plate.segment().tangent, &n = plate.segment().normal;
+GP_INLINE void drop_shear(const Facet &facet, double &xx, double &xy, double &yx, double &yy) {
+    const Vector &t = facet.segment.tangent, &n = facet.segment.normal;
     const double shear = t.x() * (xx * n.x() + xy * n.y()) + t.y() * (yx * n.x() + yy * n.y());
     xx -= shear * t.x() * n.x();
     xy -= shear * t.x() * n.y();
     yx -= shear * t.y() * n.x();
     yy -= shear * t.y() * n.y();
 }
-GP_INLINE void drop_wall_shear(const Plate &plate, double &xx, double &xy, double &yx, double &yy) {
-    if (plate.spec().friction != GP_WALL_NO_SLIP)
-        drop_shear(plate, xx, xy, yx, yy);
+GP_INLINE void drop_wall_shear(const Facet &facet, double &xx, double &xy, double &yx, double &yy) {
+    if (facet.spec->friction != GP_WALL_NO_SLIP)
+        drop_shear(facet, xx, xy, yx, yy);
 }
 
 // The gradient that a particle's neighbours make without the ghosts of plates: what the zero-energy penalty, which acts

@@ -15,7 +15,7 @@ LAYERS = [
     ["segment_cells"],
     ["clusters"],
     ["plate"],
-    ["plate_chains"],
+    ["facet_chains"],
     ["sight"],
     ["mps_operators", "operators", "walls"],
     ["mirrors"],

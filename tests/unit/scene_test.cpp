@@ -196,9 +196,11 @@ TEST(InitialStress, IsUniaxialBetweenFreeSidesThatTheFrictionHolds) {
 }
 
 TEST(MotionTable, IsLinearBetweenKnotsAndAtRestOutside) {
-    MotionTable table{{1, 2, 4}, {0, 3, 3}, {5, 5, 9}};
+    MotionTable table{{1, 2, 4}, {0, 3, 3}, {5, 5, 9}, {0, 0, 4}};
     EXPECT_EQ(table.displacement(0).x(), 0);
     EXPECT_EQ(table.displacement(1.5).x(), 1.5);
     EXPECT_EQ(table.displacement(3).y(), 7);
     EXPECT_EQ(table.displacement(9).y(), 9);
+    EXPECT_EQ(table.turn(1.5), 0);
+    EXPECT_EQ(table.turn(3), 2);
 }

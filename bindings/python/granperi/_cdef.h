@@ -135,6 +135,14 @@ typedef struct gp_plate {
     const double *knot_y;
     double normal_pressure;
     double mass_per_length;
+    int64_t n_points;
+    const double *point_x;
+    const double *point_y;
+    double pivot_x;
+    double pivot_y;
+    double omega;
+    const double *knot_angle;
+    double surface_velocity;
 } gp_plate;
 
 gp_status gp_plate_init(gp_plate *plate, size_t size);
@@ -154,6 +162,8 @@ gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const doubl
 gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 
 gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy);
+
+gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
 
 gp_status gp_step(gp_sim *sim, int64_t n);
 
@@ -299,6 +309,9 @@ typedef struct gp_load {
     double dy;
     double impulse_x;
     double impulse_y;
+    double torque_pivot;
+    double angle;
+    double impulse_torque;
 } gp_load;
 
 gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load);
