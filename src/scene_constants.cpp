@@ -133,13 +133,13 @@ double velocity_span(const Scene &scene) {
 
 // Height through which material can fall: from its highest point to its own lowest one or to the lowest point beneath it
 // of a plate that faces up.
-double fall_height(const Scene &scene, const Vector &gravity) {
-    if (gravity.norm() == 0 || scene.x.empty())
+double fall_height(const Scene &scene, const Vector &gravity, const double *px, const double *py, int64_t count) {
+    if (gravity.norm() == 0 || count == 0)
         return 0;
     const Vector up = -gravity.normalized(), across(-up.y(), up.x());
     Range height, width;
-    for (std::size_t i = 0; i < scene.x.size(); ++i) {
-        const Vector r(scene.x[i], scene.y[i]);
+    for (int64_t i = 0; i < count; ++i) {
+        const Vector r(px[i], py[i]);
         height.add(up.dot(r));
         width.add(across.dot(r));
     }
@@ -166,6 +166,16 @@ double fall_height(const Scene &scene, const Vector &gravity) {
     return height.high + half - lowest;
 }
 
+// kg/m3, of the materials in use.
+Range densities_in_use(const Scene &scene) {
+    Range densities;
+    for (const Body &body : scene.bodies()) {
+        const gp_material &m = scene.materials()[static_cast<std::size_t>(body.material)];
+        densities.add(m.volume_fraction * m.grain_density);
+    }
+    return densities;
+}
+
 // Largest step in theory for densities that differ by this ratio, in dl / wave speed.
 double largest_courant(const gp_config &config, const Constants &c, double density_ratio) {
     const double sound = c.sound_speed / c.wave_speed;
@@ -187,11 +197,22 @@ double largest_courant(const gp_config &config, const Constants &c, double densi
 
 } // namespace
 
+void Scene::set_fall(Constants &c, const Vector &gravity, const double *px, const double *py, int64_t count) const {
+    c.gravity = gravity;
+    c.fall_height = fall_height(*this, gravity, px, py, count);
+    const double span = velocity_span(*this), lightest = densities_in_use(*this).low;
+    // A load p compresses the material as a column of the height p / (rho g) does.
+    double load_height = 0; // m2/s2, times g
+    for (const PlateSpec &plate : plates_)
+        if (plate.load > 0)
+            load_height = std::max(load_height, plate.load / lightest);
+    c.flow_speed = std::sqrt(2 * (gravity.norm() * c.fall_height + load_height) + span * span);
+}
+
 Constants Scene::constants() const {
     Constants c;
     c.spacing = config_.spacing;
     c.volume = c.spacing * c.spacing;
-    c.gravity = Vector(config_.gravity_x, config_.gravity_y);
     c.period = period();
     c.horizon = config_.horizon_length > 0 ? config_.horizon_length : config_.horizon * c.spacing;
     c.interaction_radius = config_.interaction_radius * c.spacing;
@@ -202,32 +223,19 @@ Constants Scene::constants() const {
               : c.scheme == Scheme::paper_local ? c.interaction_radius
                                                 : std::max(c.horizon, c.interaction_radius);
 
-    double lightest = INFINITY, heaviest = 0; // kg/m3, of the materials in use
-    for (const Body &body : bodies_) {
-        const gp_material &m = materials_[static_cast<std::size_t>(body.material)];
-        lightest = std::min(lightest, m.volume_fraction * m.grain_density);
-        heaviest = std::max(heaviest, m.volume_fraction * m.grain_density);
-    }
-
-    const double g = c.gravity.norm();
-    c.fall_height = fall_height(*this, c.gravity);
-    const double span = velocity_span(*this);
-    // A load p compresses the material as a column of the height p / (rho g) does.
-    double load_height = 0; // m2/s2, times g
-    for (const PlateSpec &plate : plates_)
-        if (plate.load > 0)
-            load_height = std::max(load_height, plate.load / lightest);
-    c.flow_speed = std::sqrt(2 * (g * c.fall_height + load_height) + span * span);
+    const Range densities = densities_in_use(*this);
+    const double lightest = densities.low, heaviest = std::max(densities.high, 0.0);
+    set_fall(c, {config_.gravity_x, config_.gravity_y}, x.data(), y.data(), particle_count());
     c.sound_speed_is_arbitrary = config_.sound_speed == 0 && c.flow_speed == 0;
     c.sound_speed =
         config_.sound_speed > 0 ? config_.sound_speed : (c.flow_speed > 0 ? sound_to_flow_speed * c.flow_speed : 1.0);
     c.wave_speed = c.scheme == Scheme::adjoint ? c.sound_speed * std::sqrt(1 + shear_to_bulk) : c.sound_speed;
-    c.time_scale = g > 0 && c.fall_height > 0 ? std::sqrt(c.fall_height / g) : 100 * c.spacing / c.sound_speed;
 
     for (const gp_material &m : materials_) {
         MaterialConstants k;
         k.grain_density = m.grain_density;
         k.grain_diameter = m.grain_diameter;
+        k.k0 = m.k0;
         k.density = m.volume_fraction * m.grain_density;
         k.bulk_modulus = k.density * c.sound_speed * c.sound_speed;
         k.map.mu_s = config_.friction_factor * m.mu_s;
