@@ -185,12 +185,16 @@ typedef struct gp_material {
     double mu_s;            /* friction at I = 0; >= 0 [tan 21 deg] */
     double mu_2;            /* friction at large I; >= mu_s [tan 32 deg] */
     double i0;              /* I at which mu is half way between; > 0 [0.3] */
-    double k0;              /* sigma_h / sigma_v with which columns of it begin (GP_INITIAL_HYDROSTATIC), at rest the ratio of
-                               the stress across to that along the direction in which a column presses; 0: isotropic, or by
-                               free sides. Within yield, (1 - m) / (1 + m) .. (1 + m) / (1 - m) with
-                               m = friction_factor mu_s, from 1 on any above 0; else than 0 only with GP_STRESS_ELASTIC.
-                               Friction of walls begins unmobilised: side walls bear k0 sigma_v, the base all of the
-                               weight, until something moves. Columns beside each other should have the same one [0] */
+    double k0;              /* sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over
+                               that along the direction in which a column presses; 0: isotropic, or none across as
+                               gp_column.initial_pressure says. Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with
+                               m = friction_factor mu_s, any above 0 where m >= 1. Else than 0 only with
+                               GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0 sigma_v, the base
+                               all of the weight. Below 1 it is also the ratio in which the stresses change where the
+                               material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at
+                               least .1 (without k0 .3): it stays while walls take weight over, until the material
+                               yields; beside walls as rough as itself it then tends to 1. Columns side by side are in
+                               balance if they have the same one [0] */
 } gp_material;
 
 /* Fills *material with glass beads. size: sizeof(gp_material). */
