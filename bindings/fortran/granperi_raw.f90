@@ -598,7 +598,7 @@ module granperi_raw
         !> a jump, so that the energy ledger closes; - gp_state.at_rest is 0 for some 90 steps at least. Setting what it
         !> is already changes nothing; - the sound speed stays: gp_set_log warns if the scene can now fall so fast that
         !> it compresses by more than 3 %; then set gp_config.sound_speed, 0 is made for the first gravity alone. Costs
-        !> a look at all particles. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x,
+        !> about a twentieth of a step. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x,
         !> gravity_y).
         function gp_set_gravity(sim, gx, gy) bind(c, name="gp_set_gravity") result(answer)
             import

@@ -304,7 +304,7 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
  *   - gp_state.at_rest is 0 for some 90 steps at least. Setting what it is already changes nothing;
  *   - the sound speed stays: gp_set_log warns if the scene can now fall so fast that it compresses by more than 3 %; then set
  *     gp_config.sound_speed, 0 is made for the first gravity alone.
- * Costs a look at all particles. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x, gravity_y). */
+ * Costs about a twentieth of a step. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x, gravity_y). */
 GP_API gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
 
 /* ------------------------------------------------------------------------------------------------ running */
