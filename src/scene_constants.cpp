@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene.hpp"
+#include "scene_falls.hpp"
 
 namespace gp {
 
@@ -11,9 +12,6 @@ namespace {
 // Shear modulus over bulk modulus. Any value of this order gives the same deposit: below yield the material only has to
 // be stiff against its weight, and the wave speed, hence the time step, grows with it.
 constexpr double shear_to_bulk = 0.3;
-
-// Sound speed over the largest flow speed, so that the density varies by about 1 % ([1], section 2.2).
-constexpr double sound_to_flow_speed = 10.0;
 
 // Largest time step of a loaded plate of mass m per area, over sqrt(m dl / rho) / wave speed: it rests on a spring of the
 // stiffness rho c^2 / dl per area.
@@ -218,9 +216,13 @@ Constants Scene::constants() const {
         if (plate.load > 0)
             load_height = std::max(load_height, plate.load / lightest);
     c.flow_speed = std::sqrt(2 * (g * c.fall_height + load_height) + span * span);
+    if (!by_number_density(c.scheme))
+        c.impact = hardest_impact(*this);
+    const double of_flow = sound_to_flow_speed * c.flow_speed, of_impact = c.impact.speed / most_blow;
     c.sound_speed_is_arbitrary = config_.sound_speed == 0 && c.flow_speed == 0;
+    c.sound_speed_is_of_impact = config_.sound_speed == 0 && of_impact > of_flow;
     c.sound_speed =
-        config_.sound_speed > 0 ? config_.sound_speed : (c.flow_speed > 0 ? sound_to_flow_speed * c.flow_speed : 1.0);
+        config_.sound_speed > 0 ? config_.sound_speed : (c.flow_speed > 0 ? std::max(of_flow, of_impact) : 1.0);
     c.wave_speed = c.scheme == Scheme::adjoint ? c.sound_speed * std::sqrt(1 + shear_to_bulk) : c.sound_speed;
     c.time_scale = g > 0 && c.fall_height > 0 ? std::sqrt(c.fall_height / g) : 100 * c.spacing / c.sound_speed;
 
