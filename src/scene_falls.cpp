@@ -165,8 +165,8 @@ private:
         Vector normal;
     };
 
-    // Calls visit(item, landing, pile) for the items that do not stand on one of their own body and have something beneath; pile:
-    // m, the height of what stands on them without a gap.
+    // Calls visit(item, landing, pile) for the items that do not stand on one of their own body and have something beneath;
+    // pile: m, the height of what stands on them without a gap.
     template <class Visit> void for_each_landing(const Visit &visit) const {
         strips_.for_each([&](auto item, auto end, auto surface, auto last) {
             double fall = 0; // m, of the item before
