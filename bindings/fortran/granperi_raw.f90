@@ -65,7 +65,9 @@ module granperi_raw
         real(c_double) :: gravity_y !! m/s2 [-9.81]
         real(c_double) :: sound_speed
             !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
-            !! lowest point, by its initial and plate velocities [0]
+            !! lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest
+            !! blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a
+            !! plate or another column (not with GP_DENSITY_NUMBER). The log says so and what it costs [0]
         real(c_double) :: cfl
             !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
             !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
@@ -692,14 +694,20 @@ module granperi_raw
         end function
 
         !> log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per
-        !> simulation, with its figure and with what to change. At the first step: a sound_speed that nothing sets or
-        !> below the speeds that the scene can reach, particles within a quarter spacing of a plate's line, a column
-        !> thinner than 3 spacings, a time step beyond the stable limit. Later: gravity for which the sound speed is too
-        !> low (gp_set_gravity), a step taken anew, compression above 3 % (not of the schemes of [1]), a plate in reach
-        !> of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, more
-        !> than 10 % of the dissipation by the zero-energy penalty, an energy error above 2 % of the largest energy in
-        !> the ledger and, every 1024 steps, particles that lie more than 2 % closer than their density says where at
-        !> least a fifth of them flow (gp_state.volume_drift; these three not of the schemes of [1]).
+        !> simulation, with its figure and with what to change. At the first step: - a plate with material only on the
+        !> side of its body; material within a horizon and a spacing behind a plate that no other plate faces, or across
+        !> its line; - a column or set of particles more than half of which has nothing below it in the direction of
+        !> gravity, neither a plate that faces it nor a column that is borne; a scene without material; - a sound_speed
+        !> that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
+        !> plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the
+        !> stable limit. Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew,
+        !> compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in
+        !> reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
+        !> particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy
+        !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
+        !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
+        !> the schemes of [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves
+        !> its cost.
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim
