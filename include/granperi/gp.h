@@ -479,8 +479,20 @@ typedef struct gp_state {
                                       up, by some 0.5 dl / height. Above .02 gp_set_log warns */
 } gp_state;
 
-/* The state at this instant; state->struct_size has to be set. It costs about as much as a time step. */
+/* Parts of gp_state that take time to find. */
+enum {
+    GP_STATE_DEPOSIT = 1, /* x_left, x_right, peak_x, peak_height, detached */
+    GP_STATE_MARKS = 2,   /* x_q01 .. x_q99 */
+    GP_STATE_DRIFT = 4,   /* volume_drift */
+    GP_STATE_ALL = 7
+};
+
+/* The state at this instant; state->struct_size has to be set. @COST@ */
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+/* The same with these parts only, GP_STATE_... or 0: the fields of the others are NaN. Clock, ledger, momentum, speeds,
+ * max_pressure, at_rest, counters and the centre of mass are always there: @CHEAP@ */
+GP_API gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state);
 
 /* The clock alone, which costs nothing: *time (s), *dt (s, of the last step; 0 before the first) and *step (steps taken) as in
  * gp_state. Any of the pointers may be NULL. */
