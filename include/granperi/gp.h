@@ -155,8 +155,9 @@ typedef struct gp_config {
                                     one that just spans it has no ends */
     double periodic_x_max;       /* m; the period is at least twice the horizon and the interaction radius and two
                                     spacings more; best a whole number of spacings [0, 0] */
-    int32_t threads;             /* OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The
-                                    results are the same bits for any number */
+    int32_t threads;             /* threads that work on this simulation, the calling one among them; 0: OpenMP's default (all
+                                    processors, or OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any
+                                    number */
     uint64_t seed;               /* of the jitter [0] */
     double jitter;               /* dl, columns' particles are displaced at random by up to this much in x and y;
                                     0 .. 0.5 (exclusive) [0] */
@@ -487,11 +488,13 @@ enum {
     GP_STATE_ALL = 7
 };
 
-/* The state at this instant; state->struct_size has to be set. @COST@ */
+/* The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second call
+ * without a step between costs nothing. */
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
 
-/* The same with these parts only, GP_STATE_... or 0: the fields of the others are NaN. Clock, ledger, momentum, speeds,
- * max_pressure, at_rest, counters and the centre of mass are always there: @CHEAP@ */
+/* The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger, momentum, speeds,
+ * max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5 % of a time step,
+ * GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where all flows. */
 GP_API gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state);
 
 /* The clock alone, which costs nothing: *time (s), *dt (s, of the last step; 0 before the first) and *step (steps taken) as in
@@ -569,7 +572,8 @@ typedef struct gp_output {
     uint32_t fields;          /* GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written
                                  [position, velocity, pressure, shear_rate, column] */
     int32_t compression;      /* deflate level, 0 .. 9 [4] */
-    int32_t single_precision; /* 1: floating-point fields as 32 bits; time stays 64 [0] */
+    int32_t single_precision; /* 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are
+                                 rounded to 1e-5 spacings, wherever they are, which compresses as well as 32 bits */
     int64_t append;           /* 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced
                                  [0] */
 } gp_output;

@@ -90,14 +90,14 @@ public:
         if (count_ == 0) // ParaView's reader fails on arrays without elements
             return;
         lacking_ += "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n + "\" NodesPerElement=\"1\"" +
-                    (cells_.empty() ? "/>\n" : ">" + array(cells_, 1, true) + "</Topology>\n") +
-                    "    <Geometry GeometryType=\"XYZ\">" + array(position_path, 2, false) + "</Geometry>\n";
+                    (cells_.empty() ? "/>\n" : ">" + array(cells_, 1, 8, true) + "</Topology>\n") +
+                    "    <Geometry GeometryType=\"XYZ\">" + array(position_path, 2, 8, false) + "</Geometry>\n";
     }
     void add_field(const std::string &name, int components, bool integer, const std::string &path) {
         if (count_ > 0)
             lacking_ += "    <Attribute Name=\"" + xml_text(name) + "\" AttributeType=\"" +
                         (components == 1 ? "Scalar" : "Vector") + "\" Center=\"Node\">" +
-                        array(path, components, integer) + "</Attribute>\n";
+                        array(path, components, integer ? 8 : precision_, integer) + "</Attribute>\n";
     }
     void end_frame() { lacking_ += "   </Grid>\n"; }
 
@@ -184,16 +184,16 @@ private:
 
     static std::string domain_end() { return " </Domain>\n</Xdmf>\n"; }
 
-    std::string array(const std::string &path, int components, bool integer) const {
+    std::string array(const std::string &path, int components, int bytes, bool integer) const {
         return std::string("<DataItem Format=\"HDF\" NumberType=\"") + (integer ? "Int" : "Float") + "\" Precision=\"" +
-               std::to_string(integer ? 8 : precision_) + "\" Dimensions=\"" + std::to_string(count_) +
-               (components == 1 ? "" : " 3") + "\">" + hdf5_name_ + ":" + xml_text(path) + "</DataItem>";
+               std::to_string(bytes) + "\" Dimensions=\"" + std::to_string(count_) + (components == 1 ? "" : " 3") +
+               "\">" + hdf5_name_ + ":" + xml_text(path) + "</DataItem>";
     }
 
     int fd_ = -1;
     std::string hdf5_name_, cells_;
     int64_t count_ = 0;
-    int precision_ = 8;
+    int precision_ = 8; // bytes of a number of a field; positions have 8
     bool has_frames_ = false;
     std::string path_, head_, end_; // the tags before and behind the frames
     std::string lacking_;           // the frames that the file lacks
