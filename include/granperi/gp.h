@@ -16,8 +16,7 @@
  *   - Distinct simulations may be used from distinct threads at the same time. One simulation belongs to one
  *     thread at a time.
  *   - After fork(), a child of a parent that has run simulations with several threads does its work in one, with the same
- *     bits: GNU OpenMP does not survive a fork. Where other programs want the processors, use fewer threads or
- *     OMP_WAIT_POLICY=passive.
+ *     bits: the others do not survive a fork.
  *   - The host's floating-point environment (rounding, flush-to-zero, traps, flags) and locale have no effect on results,
  *     files and messages; they are in force inside callbacks, and after a call as they were before.
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
