@@ -237,6 +237,6 @@ def test_single_precision_keeps_positions_in_the_coordinates_of_a_map(tmp_path):
         sim.step(10)
         with sim.output(tmp_path / "map.h5", single_precision=True) as output:
             output.write()
-        x, y = sim.copy("x"), sim.copy("y")
+        x, y = np.array(sim.x), np.array(sim.y)
     with granperi.Result(tmp_path / "map.h5") as result:
         assert np.abs(result[0].x - x).max() < 1e-3 * 0.005 and np.abs(result[0].y - y).max() < 1e-3 * 0.005
