@@ -104,8 +104,8 @@ module granperi_raw
             !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
             !! whole number of spacings [0, 0]
         integer(c_int32_t) :: threads
-            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
-            !! for any number
+            !! threads that work on this simulation, the calling one among them; 0: OpenMP's default (all processors, or
+            !! OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any number
         integer(c_int64_t) :: seed !! of the jitter [0]
         real(c_double) :: jitter
             !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
@@ -422,6 +422,12 @@ module granperi_raw
         real(c_double) :: gravity_y !! m/s2, in force from here on
     end type
 
+    !> Parts of gp_state that take time to find.
+    integer(c_int32_t), parameter :: GP_STATE_DEPOSIT = 1 !! x_left, x_right, peak_x, peak_height, detached
+    integer(c_int32_t), parameter :: GP_STATE_MARKS = 2 !! x_q01 .. x_q99
+    integer(c_int32_t), parameter :: GP_STATE_DRIFT = 4 !! volume_drift
+    integer(c_int32_t), parameter :: GP_STATE_ALL = 7
+
     type, bind(c) :: gp_load
         integer(c_int32_t) :: struct_size = 0 !! set by the caller
         real(c_double) :: fx !! N/m, force of the material on the plate over the last step
@@ -456,7 +462,9 @@ module granperi_raw
             !! GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written [position,
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t) :: compression !! deflate level, 0 .. 9 [4]
-        integer(c_int32_t) :: single_precision !! 1: floating-point fields as 32 bits; time stays 64 [0]
+        integer(c_int32_t) :: single_precision
+            !! 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are rounded to
+            !! 1e-5 spacings, wherever they are, which compresses as well as 32 bits
         integer(c_int64_t) :: append
             !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
     end type
@@ -736,10 +744,23 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step.
+        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second
+        !> call without a step between costs nothing.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
+            type(gp_state), intent(inout), optional :: state
+            integer(c_int32_t) :: answer
+        end function
+
+        !> The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger,
+        !> momentum, speeds, max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5
+        !> % of a time step, GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where
+        !> all flows.
+        function gp_get_state_parts(sim, parts, state) bind(c, name="gp_get_state_parts") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: parts
             type(gp_state), intent(inout), optional :: state
             integer(c_int32_t) :: answer
         end function

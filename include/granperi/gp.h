@@ -16,8 +16,7 @@
  *   - Distinct simulations may be used from distinct threads at the same time. One simulation belongs to one
  *     thread at a time.
  *   - After fork(), a child of a parent that has run simulations with several threads does its work in one, with the same
- *     bits: GNU OpenMP does not survive a fork. Where other programs want the processors, use fewer threads or
- *     OMP_WAIT_POLICY=passive.
+ *     bits: the others do not survive a fork.
  *   - The host's floating-point environment (rounding, flush-to-zero, traps, flags) and locale have no effect on results,
  *     files and messages; they are in force inside callbacks, and after a call as they were before.
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
@@ -158,8 +157,9 @@ typedef struct gp_config {
                                     one that just spans it has no ends */
     double periodic_x_max;       /* m; the period is at least twice the horizon and the interaction radius and two
                                     spacings more; best a whole number of spacings [0, 0] */
-    int32_t threads;             /* OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The
-                                    results are the same bits for any number */
+    int32_t threads;             /* threads that work on this simulation, the calling one among them; 0: OpenMP's default (all
+                                    processors, or OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any
+                                    number */
     uint64_t seed;               /* of the jitter [0] */
     double jitter;               /* dl, columns' particles are displaced at random by up to this much in x and y;
                                     0 .. 0.5 (exclusive) [0] */
@@ -535,8 +535,22 @@ typedef struct gp_state {
     double gravity_x, gravity_y;   /* m/s2, in force from here on */
 } gp_state;
 
-/* The state at this instant; state->struct_size has to be set. It costs about as much as a time step. */
+/* Parts of gp_state that take time to find. */
+enum {
+    GP_STATE_DEPOSIT = 1, /* x_left, x_right, peak_x, peak_height, detached */
+    GP_STATE_MARKS = 2,   /* x_q01 .. x_q99 */
+    GP_STATE_DRIFT = 4,   /* volume_drift */
+    GP_STATE_ALL = 7
+};
+
+/* The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second call
+ * without a step between costs nothing. */
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+/* The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger, momentum, speeds,
+ * max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5 % of a time step,
+ * GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where all flows. */
+GP_API gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state);
 
 /* The clock alone, which costs nothing: *time (s), *dt (s, of the last step; 0 before the first) and *step (steps taken) as in
  * gp_state. Any of the pointers may be NULL. */
@@ -616,7 +630,8 @@ typedef struct gp_output {
     uint32_t fields;          /* GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written
                                  [position, velocity, pressure, shear_rate, column] */
     int32_t compression;      /* deflate level, 0 .. 9 [4] */
-    int32_t single_precision; /* 1: floating-point fields as 32 bits; time stays 64 [0] */
+    int32_t single_precision; /* 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are
+                                 rounded to 1e-5 spacings, wherever they are, which compresses as well as 32 bits */
     int64_t append;           /* 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced
                                  [0] */
 } gp_output;
