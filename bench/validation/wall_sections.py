@@ -201,8 +201,8 @@ deposit. There is no exact value: the coarser is compared with the finest.
 
 {incline_column(results)}
 
-On a layer of the same grains, {1000 * runs.BED:g} mm thick, at {runs.BED_ANGLE}°; the marks are of the column's mass. In experiments the run-out hardly
-depends on such a layer below some 16° (Mangeney et al. 2010, J. Geophys. Res. 115, F03040); right is within 10 % of the rigid floor.
+On a layer of the same grains, {1000 * runs.BED:g} mm thick, at {runs.BED_ANGLE}°; the marks are of the column's mass. In experiments such a layer
+matters little on slopes as small as this one (Mangeney et al. 2010); right is within 10 % of the rigid floor.
 
 {incline_bed(results)}
 
