@@ -86,7 +86,8 @@ def with_sections(old: str, new: str, titles: Iterable[str], versions: list[str]
     of_latest = [title for title in kept if title in titles or title in earlier]
     of_latest += [title for title in titles if title not in kept]
     said = (
-        f"{MIXED} {', '.join(of_latest)}: of {versions[0]}. All others: of {versions[1]}, made anew with the release."
+        f"{MIXED} {', '.join(of_latest)}: of {versions[0]}. All others: of {versions[1]}, made anew with the release. "
+        "The summary below is theirs, too."
     )
     paragraphs = [one for one in kept[""].split("\n\n") if not one.startswith(MIXED)]
     paragraphs.insert(1, said)

@@ -69,9 +69,24 @@ it does so before 1 s, if not all. The ledger error is the largest of all runs a
 
 {sections.threads(collection)}
 
+### Constants that are no settings
+
+Measured once by hand, with libraries that have half and twice the constant; means of 8 runs, peak ± 0.5 %, run-outs ± 0.6 %.
+
+| constant | half | as it is | twice | peak y/L | run-out, 90 % |
+|---|---:|---:|---:|---:|---:|
+| strain in which the density follows the spacing | 1.5 | 3 | 6 | 0.413, 0.413, 0.412 | 1.084, 1.081, 1.078 |
+| most that crowding makes of the density, over ρ0 - 1 | 0.025 | 0.05 | 0.1 | 0.413, 0.413, 0.413 | 1.076, 1.081, 1.085 |
+| steepest ratio of a ghost's tangential velocity away from yield | 0.25 | 0.5 | 1 | 0.411, 0.413, 0.414 | 1.081, 1.081, 1.082 |
+| ratio of a ghost's normal velocity | 0.125 | 0.25 | 0.5 | 0.412, 0.413, 0.413 | 1.071, 1.081, 1.083 |
+| least penalty inside the yield surface | 0.1 | 0.2 | 0.4 | 0.412, 0.413, 0.413 | 1.078, 1.081, 1.077 |
+
 ### The horizon
 
-Against the finest, L/dl = {runs.FINEST}, with the default of 4.
+Against the finest, L/dl = {runs.FINEST}, with the default of 4. From L/dl = 32 on collapses of beads are as sure with 3 as with 4, at three
+quarters of the time. It is not the default, as elsewhere it is not: a drum, bowls of 24 and 96 plates and few grains on a floor do not
+come to rest, few grains that meet gain energy, a layer of ten rows on 26° is 3 % slow, and more than twice as much of a front on 16°
+comes off.
 
 {sections.horizons(collection)}
 
