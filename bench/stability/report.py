@@ -84,9 +84,9 @@ Measured once by hand, with libraries that have half and twice the constant; mea
 ### The horizon
 
 Against the finest, L/dl = {runs.FINEST}, with the default of 4. From L/dl = 32 on collapses of beads are as sure with 3 as with 4, at three
-quarters of the time. It is not the default, as elsewhere it is not: a drum, bowls of 24 and 96 plates and few grains on a floor do not
-come to rest, few grains that meet gain energy, a layer of ten rows on 26° is 3 % slow, and more than twice as much of a front on 16°
-comes off.
+quarters of the time. It is not the default, as elsewhere it is not: a drum and bowls of 24 and 96 plates do not come to rest,
+few grains that meet or fall on a floor gain energy, a layer of ten rows on 26° is 3 % slow, and more than twice as much of a
+front on 16° comes off.
 
 {sections.horizons(collection)}
 
