@@ -84,8 +84,8 @@ def _curve_axes(axes: Axes | None, x_label: str, y_label: str) -> Axes:
 
 
 def _plates(axes: Axes, shot: Snapshot) -> None:
-    for x0, y0, x1, y1 in shot.plate_lines():
-        axes.plot([x0, x1], [y0, y1], color="black", linewidth=2, zorder=3, solid_capstyle="butt", gid="plate")
+    for line in shot.plate_lines():
+        axes.plot(*line.T, color="black", linewidth=2, zorder=3, solid_capstyle="butt", gid="plate")
 
 
 def _surface_line(shot: Snapshot) -> tuple[np.ndarray, np.ndarray]:
