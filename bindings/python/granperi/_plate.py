@@ -68,6 +68,12 @@ class Plate(Parameters):
             return False
         return name not in ("knot_x", "knot_y") or "knot_angle" not in given or "knot_x" in given or "knot_y" in given
 
+    def _length_of(self, names: tuple[str, ...], lengths: dict[str, int]) -> int:
+        n = super()._length_of(names, lengths)
+        if n == 0 and "point_x" in names:  # 0 would stand for a plate without such a table
+            raise ArgumentError("gp_plate.point_x has no values: expected 2 or more points")
+        return n
+
     @property
     def points(self) -> np.ndarray:
         """m, shape (n, 2): the line, also of a plate that has two ends only."""

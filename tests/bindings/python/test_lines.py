@@ -17,10 +17,10 @@ def polygon(radius, n, clockwise=True):
 
 
 def drum(**more):
-    sim = granperi.Simulation(spacing=0.01, threads=1)
-    inside = np.arange(-5, 5) * 0.01 + 0.005
-    x, y = (values.ravel() for values in np.meshgrid(inside, inside[:4]))
-    near = np.hypot(x, y) < 0.085
+    sim = granperi.Simulation(spacing=0.01, threads=1, sound_speed=30)
+    inside = np.arange(-9, 9) * 0.01 + 0.005
+    x, y = (values.ravel() for values in np.meshgrid(inside, inside[:7]))
+    near = np.hypot(x, y) < 0.092
     sim.add_particles(x[near], y[near])
     sim.add_plate(granperi.Plate.line(polygon(0.1, 16), closed=True, **more))
     return sim
@@ -68,9 +68,10 @@ def test_points_of_another_shape(points, message):
 @pytest.mark.parametrize("values, message", [
     ({"point_x": [0, 1]}, "point_x, point_y of one length, got point_x of 2, no point_y"),
     ({"point_x": [0, 1], "point_y": [0, 1, 2]}, "got point_x of 2, point_y of 3"),
+    ({"points": np.empty((0, 2))}, "gp_plate.point_x has no values"),
     ({"points": [[0, 0]]}, "gp_plate.n_points = 1: expected 0 or a whole number from 2"),
     ({"points": [[0, 0], [1, 0], [1, 1e-4]]}, r"gp_plate.point_x\[2\], point_y\[2\] = \(1, 0.0001\)"),
-    ({"points": [[0, 0], [1, 0], [1, 1], [0.5, -1]]}, "the segment from point 2 meets that from point 0"),
+    ({"points": [[0, 0], [1, 0], [1, 1], [0.5, -1]]}, "the segment from point 0 meets that from point 2"),
     ({"points": [[0, 0], [1, math.nan]]}, r"gp_plate.point_y\[1\] = nan"),
     ({"points": SQUARE, "x1": 1}, "gp_plate.x1 = 1: expected 0 for a plate with n_points"),
     ({"x1": 1, "omega": math.inf}, "gp_plate.omega = inf"),
@@ -135,7 +136,7 @@ def test_the_host_turns_a_drum():
 def test_a_belt_drives_what_lies_on_it():
     """Friction mu g for 0.05 s, less than it takes to come up to the belt."""
     with granperi.Simulation(spacing=0.01, threads=1) as sim:
-        sim.add_column(x_min=-0.1, width=0.2, height=0.02)
+        sim.add_column(x_min=-0.1, width=0.2, height=0.04)
         sim.add_plate(granperi.Plate.floor(-1, 1, friction="coulomb", wall_mu=0.2, surface_velocity=-1))
         sim.run(0.05)
         mass = len(sim) * 0.01**2 * 2500 * 0.62
