@@ -1,7 +1,8 @@
 /* An annular shear cell: the inner wall turns, the outer one presses, no gravity. Torque and flow beside the law mu(I).
  *
  * The moment M of the stress does not depend on the radius, so tau = M / (2 pi r^2) falls outwards; where it falls below
- * mu_s p the material rests. The outer wall is a ring of plates under a load each, which keeps the pressure. */
+ * mu_s p the material rests. The outer wall is a ring of plates under a load each, which keeps the pressure; it does not keep
+ * its place, so a cell whose resting part is thick slowly begins to wander about the inner wall. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 
 enum { CORNERS = 48, OUTER = 24, SLICES = 2000 };
 
-static const double inner = 0.05, outer = 0.1, pressure = 1000, grain = 0.002; /* m, m, Pa, m */
+static const double inner = 0.05, outer = 0.08, pressure = 1000, grain = 0.002; /* m, m, Pa, m */
 static const double pi = 3.14159265358979323846;
 
 static int32_t add_inner_wall(gp_sim *sim, double omega) {
@@ -112,9 +113,9 @@ static int32_t look(void *user, gp_sim *sim) {
 }
 
 int main(int argc, char **argv) {
-    double omega = 2, yield = 0, spacing, exact, moment;
-    example_options options = example_defaults(20, 1.5, "annular.h5");
-    const example_extra omega_option = {"--omega", "RATE", "of the inner wall, rad/s", &omega, 0.01, 20, 0};
+    double omega = 10, yield = 0, spacing, exact, moment;
+    example_options options = example_defaults(12, 1, "annular.h5");
+    const example_extra omega_option = {"--omega", "RATE", "of the inner wall, rad/s", &omega, 0.01, 100, 0};
     gp_config config;
     gp_sim *sim;
     half h = {0, 0, 0};
@@ -122,7 +123,7 @@ int main(int argc, char **argv) {
     options.lift_time = NAN;
     example_parse(
         argc, argv,
-        "Glass beads between a wall that turns, of 0.05 m, and a ring that presses, of 0.1 m. Reference length: "
+        "Glass beads between a wall that turns, of 0.05 m, and a ring that presses, of 0.08 m. Reference length: "
         "their distance.",
         &options, &omega_option);
     spacing = (outer - inner) / options.resolution;

@@ -103,7 +103,7 @@ int main(int argc, char **argv) {
         printf("surface_slope       %.2f degrees, mean from 1 rad on\n", r.slope / r.looks * 180 / pi);
         printf("moment              %.4f N, that keeps it turning\n",
                (-r.omega * load.impulse_torque - r.work) / (load.angle - r.angle));
-        printf("work_over_dissipation %.4f from 1 rad on\n",
+        printf("work_per_dissipated %.4f from 1 rad on\n",
                (-r.omega * load.impulse_torque - r.work) / (state.dissipated - r.dissipated));
     }
     gp_destroy(sim);
