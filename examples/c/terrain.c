@@ -1,8 +1,8 @@
 /* A mass of debris is released on a hillside: how far does it go? The profile comes from a file of two columns.
  *
  * The terrain is one line of any number of points; what is asked of it is that its segments are no shorter than a tenth of the
- * spacing and that it does not cross itself. The spacing has to leave the flow some six rows where it is thinnest: fewer lie
- * too close in it (the library warns of it). */
+ * spacing and that it does not cross itself. The spacing has to leave the flow some four rows where it is thinnest: fewer pack
+ * too closely (the library warns of it). */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

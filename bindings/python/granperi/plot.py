@@ -42,10 +42,14 @@ _STYLE = {"font.size": _SMALL, "axes.labelsize": _LARGE, "lines.linewidth": 2.0}
 
 
 def _bounds(shot: Snapshot) -> tuple[float, float, float, float]:
-    """x and y limits [m] that have all particles and, where they are near, the plates."""
+    """x and y limits [m] that have all particles, the plates where they are near, and all of a drum that holds particles."""
     x, y, margin = shot.x, shot.y, 2 * shot.spacing
     if not len(x):
         return -1.0, 1.0, 0.0, 1.0
+    for line in shot.plate_lines():
+        (left, bottom), (right, top) = line.min(axis=0), line.max(axis=0)
+        if np.array_equal(line[0], line[-1]) and left <= x.min() and x.max() <= right and bottom <= y.min() <= top:
+            x, y = np.append(x, [left, right]), np.append(y, [bottom, top])
     wide = 0.03 * (np.ptp(x) + np.ptp(y)) + margin
     return x.min() - wide, x.max() + wide, y.min() - margin, y.max() + wide
 
