@@ -106,13 +106,14 @@ def write_report(
         "--section",
         metavar="TITLE",
         action="append",
-        help="write only this section anew, without figures, and leave the rest of the report as it is; more than once for more",
+        help="write only this section anew, with the figures that are there, and leave the rest of the report as it is; more "
+        "than once for more",
     )
     arguments = parser.parse_args()
     collection = Collection(arguments.results)
     report = arguments.docs / f"{name}.md"
     if arguments.section:
-        drawn: set[str] = set()
+        drawn = {one for one in figures if (arguments.docs / "images" / f"{name}_{one}.png").exists()}
         text = with_sections(
             report.read_text(encoding="utf-8"), compose(collection, drawn), arguments.section, changelog_versions()
         )

@@ -81,6 +81,10 @@ class Plate(Parameters):
             return np.column_stack([self.point_x, self.point_y])
         return np.array([[self.x0, self.y0], [self.x1, self.y1]])
 
+    @points.setter
+    def points(self, value: Any) -> None:
+        self._set("points", value)
+
     def placed(self, dx: float, dy: float, angle: float = 0.0) -> np.ndarray:
         """m, shape (n, 2): the line when the plate is displaced by dx, dy [m] and turned by angle [rad] about its pivot,
         as Simulation.plate_load tells."""
