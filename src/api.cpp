@@ -262,6 +262,14 @@ gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, 
     });
 }
 
+gp_status gp_set_gravity(gp_sim *sim, double gx, double gy) {
+    return guard([&] {
+        require_simulation(sim);
+        sim->sim.set_gravity(gx, gy);
+        return GP_OK;
+    });
+}
+
 // -------------------------------------------------------------------------------------------------- running
 
 gp_status gp_step(gp_sim *sim, int64_t n) {

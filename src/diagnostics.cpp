@@ -79,6 +79,8 @@ gp_state measure_state(const World &world) {
     s.at_rest = is_at_rest(world, e.kinetic) ? 1 : 0;
     s.collisions = world.collisions;
     s.sound_speed = world.constants.sound_speed;
+    s.gravity_x = world.constants.gravity.x();
+    s.gravity_y = world.constants.gravity.y();
     return s;
 }
 

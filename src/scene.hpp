@@ -2,6 +2,7 @@
 // first step; and the constants that follow from it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -95,6 +96,7 @@ struct Body {
 struct MaterialConstants {
     double density; // rho0 = phi rho_s, kg/m3
     double grain_density, grain_diameter;
+    double k0;           // stress across over stress along, with which columns begin; 0: isotropic
     double bulk_modulus; // rho0 c0^2, Pa
     ReturnMap map;
     Regularized law;
@@ -113,19 +115,24 @@ struct Constants {
     LatticeSums interaction_lattice; // for the interaction radius
     OneSidedSlope one_sided;         // of the weight
     double sound_speed;              // c0, m/s
-    double flow_speed;               // m/s, the largest that the scene can reach, which the sound speed is based on
-    bool sound_speed_is_arbitrary;   // nothing in the scene sets a speed
-    double wave_speed;               // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), c0 without G; m/s
-    double fall_height;              // m, that the sound speed is based on
-    double time_scale;               // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
-    double plate_mass;               // kg/m2, of a loaded plate that has none of its own
-    double plate_step;               // s, largest step that is stable for the lightest loaded plate
-    double viscous_step;             // s, largest step that is stable for the coefficients that damp
-    double contrast_step;            // s, largest step that is stable where materials of different density meet
-    double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
-    double elastic_penalty;          // the same inside the yield surface, over that
+    double flow_speed; // m/s, the largest that the scene can reach; at the start the sound speed is based on it
+    bool sound_speed_is_arbitrary; // nothing in the scene sets a speed
+    double wave_speed;             // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), c0 without G; m/s
+    double fall_height;            // m, that the flow speed is based on
+    double plate_mass;             // kg/m2, of a loaded plate that has none of its own
+    double plate_step;             // s, largest step that is stable for the lightest loaded plate
+    double viscous_step;           // s, largest step that is stable for the coefficients that damp
+    double contrast_step;          // s, largest step that is stable where materials of different density meet
+    double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
+    double elastic_penalty;        // the same inside the yield surface, over that
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
+
+    // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
+    double time_scale() const {
+        const double g = gravity.norm();
+        return g > 0 && fall_height > 0 ? std::sqrt(fall_height / g) : 100 * spacing / sound_speed;
+    }
 };
 
 struct InitialStress {
@@ -142,6 +149,8 @@ public:
     int32_t add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                           const double *vy);
     int32_t add_plate(const gp_plate &plate);
+    // In place of the config's.
+    void set_gravity(const Vector &gravity);
     // From now on the plate has this constant motion in place of its own.
     void drive_plate(int32_t plate, const Motion &motion);
     // Throws if a plate is too long to turn within the period. name: of the argument.
@@ -161,6 +170,8 @@ public:
     int64_t particle_count() const { return static_cast<int64_t>(x.size()); }
 
     Constants constants() const;
+    // Gravity, and the height and speed of a fall of material that is at these places (of plates that are where they begin).
+    void set_fall(Constants &constants, const Vector &gravity, const double *px, const double *py, int64_t count) const;
     // With which every particle begins (gp_column.initial_pressure).
     std::vector<InitialStress> initial_stress(const Constants &constants) const;
 

@@ -237,6 +237,23 @@ void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
     }
 }
 
+void Sim::set_gravity(double gx, double gy) {
+    require_finite("gx", gx);
+    require_finite("gy", gy);
+    const Vector gravity(gx, gy);
+    if (started_) {
+        if (gravity == world_->constants.gravity)
+            return;
+        change_gravity(*world_, gravity);
+        ++epoch_;
+        if (log_)
+            warn(warnings_.of_gravity(*world_));
+    } else {
+        scene_.set_gravity(gravity);
+        scene_changed();
+    }
+}
+
 void Sim::prepare() {
     if (world_ && world_->lists_whole)
         return;

@@ -43,7 +43,8 @@ std::string text_of_drift(const World &world, double drift) {
 
 // The largest energy that the ledger has dealt with, J/m.
 double ledger_scale(const Ledger &ledger) {
-    return std::max({std::abs(ledger.initial), ledger.largest_kinetic, ledger.dissipated, std::abs(ledger.plate_work)});
+    return std::max({std::abs(ledger.initial), ledger.scale, ledger.largest_kinetic, ledger.dissipated,
+                     std::abs(ledger.plate_work)});
 }
 
 // A particle that has come behind the line of a plate that it sees; -1: none.
@@ -138,6 +139,18 @@ std::vector<std::string> Warnings::of_retry(const World &world, const char *erro
         return {};
     return {format_text("step %lld is taken anew in halves (gp_config.retry_halvings): %s",
                         static_cast<long long>(world.clock.step), error)};
+}
+
+std::vector<std::string> Warnings::of_gravity(const World &world) {
+    const Constants &c = world.constants;
+    // A fall of the height h and a column of that height compress by g h / c0^2.
+    const double compression = 0.5 * std::pow(c.flow_speed / c.sound_speed, 2);
+    if (compression <= compression_limit || !is_new(more_gravity))
+        return {};
+    return {format_text(
+        "gp_set_gravity = (%g, %g) m/s2: the scene can now reach %g m/s, for which the sound speed of %g m/s "
+        "is too low (compression of some %.2g %%): set gp_config.sound_speed to about %g",
+        c.gravity.x(), c.gravity.y(), c.flow_speed, c.sound_speed, 100 * compression, 10 * c.flow_speed)};
 }
 
 std::vector<std::string> Warnings::of_step(const World &world) {

@@ -15,6 +15,7 @@ public:
     std::vector<std::string> of_scene(const World &world); // before the first step
     std::vector<std::string> of_step(const World &world);  // after each
     std::vector<std::string> of_retry(const World &world, const char *error);
+    std::vector<std::string> of_gravity(const World &world); // after a change of it
 
 private:
     enum Kind {
@@ -27,6 +28,7 @@ private:
         large_penalty,
         large_energy_error,
         lost_volume,
+        more_gravity,
         kinds
     };
 

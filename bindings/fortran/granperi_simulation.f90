@@ -20,7 +20,8 @@ module granperi_simulation
         logical :: borrowed = .false. ! given to a callback: not its to destroy
     contains
         procedure, public :: create, destroy, is_created
-        procedure, public :: add_material, add_column, add_particles, add_plate, set_plate_velocity, set_plate_motion
+        procedure, public :: add_material, add_column, add_particles, add_plate
+        procedure, public :: set_plate_velocity, set_plate_motion, set_gravity
         procedure, public :: run, set_callback, remove_callback, set_log, remove_log
         procedure, public :: state, clock, particles, is_current, copy, copy_field, surface, interface_between, plate_load, plan
         procedure, public :: save => save_file, load => load_file, output_open, output_write, output_close
@@ -44,9 +45,9 @@ module granperi_simulation
 
     abstract interface
         !> Called after every so many steps; stop_run is .false. on entry. sim is valid during the call only, and may be
-        !> read, written to its output and driven by set_plate_velocity or set_plate_motion. context: as given to set_callback, else not
-        !> associated; the host's own data, to be unpacked by select type and not to be pointed elsewhere (intent(in) would
-        !> say so, but gfortran 12 then takes what it points to for constant, too).
+        !> read, written to its output and driven by set_plate_velocity, set_plate_motion and set_gravity. context: as given to
+        !> set_callback, else not associated; the host's own data, to be unpacked by select type and not to be pointed
+        !> elsewhere (intent(in) would say so, but gfortran 12 then takes what it points to for constant, too).
         subroutine gp_on_step(sim, context, stop_run)
             import :: gp_simulation
             class(gp_simulation), intent(inout) :: sim
@@ -154,6 +155,14 @@ module granperi_simulation
             class(gp_simulation), intent(inout) :: self
             integer(c_int32_t), intent(in) :: plate
             real(c_double), intent(in) :: vx, vy, omega
+            integer(c_int32_t), intent(out), optional :: status
+            character(*), intent(out), optional :: message
+        end subroutine
+
+        !> Gravity, m/s2, from now on; before the first step it replaces the config's.
+        module subroutine set_gravity(self, gx, gy, status, message)
+            class(gp_simulation), intent(inout) :: self
+            real(c_double), intent(in) :: gx, gy
             integer(c_int32_t), intent(out), optional :: status
             character(*), intent(out), optional :: message
         end subroutine

@@ -245,13 +245,22 @@ contains
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_material( &
-            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, status, message) result(made)
+            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, k0, status, message) result(made)
         real(c_double), intent(in), optional :: grain_density !! kg/m3, rho_s; > 0 [2500]
         real(c_double), intent(in), optional :: volume_fraction !! phi, so rho = phi rho_s; > 0, <= 1 [0.62]
         real(c_double), intent(in), optional :: grain_diameter !! m, d; > 0 [0.002]
         real(c_double), intent(in), optional :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
         real(c_double), intent(in), optional :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double), intent(in), optional :: i0 !! I at which mu is half way between; > 0 [0.3]
+        real(c_double), intent(in), optional :: k0
+            !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along
+            !! the direction in which a column presses; 0: isotropic, or none across as gp_column.initial_pressure says.
+            !! Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with m = friction_factor mu_s, any above 0 where m
+            !! >= 1. Else than 0 only with GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0
+            !! sigma_v, the base all of the weight. Below 1 it is also the ratio in which the stresses change where the
+            !! material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at least .1
+            !! (without k0 .3): it stays while walls take weight over, until the material yields; beside walls as rough
+            !! as itself it then tends to 1. Columns side by side are in balance if they have the same one [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_material) :: made
@@ -265,6 +274,7 @@ contains
         if (present(mu_s)) made%mu_s = mu_s
         if (present(mu_2)) made%mu_2 = mu_2
         if (present(i0)) made%i0 = i0
+        if (present(k0)) made%k0 = k0
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.

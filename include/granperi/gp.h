@@ -185,6 +185,16 @@ typedef struct gp_material {
     double mu_s;            /* friction at I = 0; >= 0 [tan 21 deg] */
     double mu_2;            /* friction at large I; >= mu_s [tan 32 deg] */
     double i0;              /* I at which mu is half way between; > 0 [0.3] */
+    double k0;              /* sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over
+                               that along the direction in which a column presses; 0: isotropic, or none across as
+                               gp_column.initial_pressure says. Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with
+                               m = friction_factor mu_s, any above 0 where m >= 1. Else than 0 only with
+                               GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0 sigma_v, the base
+                               all of the weight. Below 1 it is also the ratio in which the stresses change where the
+                               material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at
+                               least .1 (without k0 .3): it stays while walls take weight over, until the material
+                               yields; beside walls as rough as itself it then tends to 1. Columns side by side are in
+                               balance if they have the same one [0] */
 } gp_material;
 
 /* Fills *material with glass beads. size: sizeof(gp_material). */
@@ -307,6 +317,18 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
  * counter-clockwise. gp_set_plate_velocity is this with omega 0. A loaded plate does not turn: GP_E_ARGUMENT. */
 GP_API gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
 
+/* Gravity (m/s2) from now on, for a box that is tilted or shaken, in its own frame, or gravity that sets in or ends. Finite.
+ * Possible at any time, also from a callback, with every scheme. Before the first step it replaces gp_config.gravity_x and
+ * gravity_y: columns begin in balance with it and the sound speed is made for it. After it
+ *   - stresses and velocities are what they were: a jump makes elastic waves as a blow does. Turning it by small angles, such
+ *     as once per step or per 0.1 degrees, does not;
+ *   - gp_state.potential goes on without a jump, so that the energy ledger closes;
+ *   - gp_state.at_rest is 0 for some 90 steps at least. Setting what it is already changes nothing;
+ *   - the sound speed stays: gp_set_log warns if the scene can now fall so fast that it compresses by more than 3 %; then set
+ *     gp_config.sound_speed, 0 is made for the first gravity alone.
+ * Costs about a twentieth of a step. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x, gravity_y). */
+GP_API gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
+
 /* ------------------------------------------------------------------------------------------------ running */
 
 /* Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts time. A
@@ -350,7 +372,7 @@ typedef void (*gp_log)(void *user, int32_t level, const char *text);
 /* log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per simulation, with
  * its figure and with what to change. At the first step: a sound_speed that nothing sets or below the speeds that the scene
  * can reach, particles within a quarter spacing of a plate's line, a column thinner than 3 spacings, a time step beyond the
- * stable limit. Later: a step taken anew, compression above 3 % (not of the schemes of [1]), a plate in reach of material at
+ * stable limit. Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew, compression above 3 % (not of the schemes of [1]), a plate in reach of material at
  * more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, more than 10 % of the dissipation by
  * the zero-energy penalty, an energy error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that
  * lie more than 2 % closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three
@@ -428,7 +450,8 @@ typedef struct gp_state {
     /* Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals
      * kinetic + potential + elastic + dissipated + plate_work + energy_error. */
     double kinetic;
-    double potential;     /* gravitational, zero at the lowest face of the initial material */
+    double potential;     /* gravitational, zero at the lowest face of the initial material. gp_set_gravity leaves it as it is:
+                             from there on it is less by what the new gravity has done, and may fall below 0 */
     double elastic;       /* of compression and shear */
     double dissipated;    /* by friction, collisions, walls and the scheme itself */
     double plate_work;    /* done by the material on moving plates */
@@ -456,7 +479,8 @@ typedef struct gp_state {
                                       there rests itself: its kinetic energy is below the same 1e-6, and the material bears
                                       its load within 5 %.
                                       The energy scale is the largest of the initial energy of the ledger and the
-                                      largest kinetic energy so far */
+                                      largest kinetic energy so far; after gp_set_gravity the energy then, with the potential
+                                      from the lowest face of the material on, and the largest kinetic energy since */
     int64_t collisions;            /* colliding pairs so far ([1] 2.9), each step's counted anew */
     double wall_seconds;           /* s of wall-clock time inside the steps so far */
     double sound_speed;            /* m/s, c0 in use */
@@ -499,6 +523,7 @@ typedef struct gp_state {
                                       it; at the start all of these, of the lattice if there are none. 0 where nothing
                                       flows. Layers that keep their height stay within .01; what topples and spreads opens
                                       up, by some 0.5 dl / height. Above .02 gp_set_log warns */
+    double gravity_x, gravity_y;   /* m/s2, in force from here on */
 } gp_state;
 
 /* The state at this instant; state->struct_size has to be set. It costs about as much as a time step. */

@@ -46,6 +46,7 @@ void add_material(std::string &text, const gp_material &m) {
     object.value("mu_s", m.mu_s);
     object.value("mu_2", m.mu_2);
     object.value("i0", m.i0);
+    object.value("k0", m.k0);
     object.end();
 }
 

@@ -55,12 +55,13 @@ static uint64_t hash_of(gp_sim *sim, int64_t n, const driven *plates) {
     return add_load(add_load(hash, sim, plates->lid), sim, plates->wheel);
 }
 
-/* The lid sinks faster and faster: 4 m/s2; the wheel turns faster and faster. */
+/* The lid sinks faster and faster: 4 m/s2; the wheel turns faster and faster; and the scene is tilted. */
 static int32_t drive(void *user, gp_sim *sim) {
     const driven *plates = user;
     gp_state state = {.struct_size = sizeof state};
     return gp_get_state(sim, &state) < 0 || gp_set_plate_velocity(sim, plates->lid, 0, -4 * state.time) < 0 ||
-           gp_set_plate_motion(sim, plates->wheel, -0.25, 0, 512 * state.time) < 0;
+           gp_set_plate_motion(sim, plates->wheel, -0.25, 0, 512 * state.time) < 0 ||
+           gp_set_gravity(sim, 50 * state.time, -9.5) < 0;
 }
 
 static int32_t add_plate(gp_sim *sim, double x0, double y0, double x1, double y1, int32_t friction) {

@@ -52,7 +52,7 @@ contains
         end do
     end function
 
-    !> The lid sinks faster and faster: 4 m/s2; the wheel turns faster and faster.
+    !> The lid sinks faster and faster: 4 m/s2; the wheel turns faster and faster; and the scene is tilted.
     subroutine drive(sim, context, stop_run)
         class(gp_simulation), intent(inout) :: sim
         class(*), pointer, intent(inout) :: context
@@ -63,6 +63,7 @@ contains
         type is (lid_and_wheel)
             call sim%set_plate_velocity(plates%ids(1), 0.0_gp_real, -4*state%time)
             call sim%set_plate_motion(plates%ids(2), -0.25_gp_real, 0.0_gp_real, 512*state%time)
+            call sim%set_gravity(50*state%time, -9.5_gp_real)
         class default
             stop_run = .true.
         end select

@@ -43,6 +43,19 @@ inline double sample_time(int64_t frame) {
     return static_cast<double>(frame) / 3;
 }
 
+// Two plates, one of them a line: they move between one frame and the next, but not before each third.
+inline gp::io::WallLines sample_walls() {
+    return {{0, 0, 1, 1, 1}, {0, 1, 2, 3, 3, 4}};
+}
+inline std::vector<double> sample_wall_points(int64_t frame) {
+    std::vector<double> points;
+    for (int k = 0; k < 5; ++k) {
+        const double moved = static_cast<double>(frame - frame % 3);
+        points.insert(points.end(), {0.1 * k + moved, 0.3 * k - moved, 0});
+    }
+    return points;
+}
+
 // A result file with sample values.
 class SampleFile {
 public:
@@ -53,7 +66,8 @@ public:
             id[k] = static_cast<double>(k);
             column[k] = static_cast<double>(k % 3);
         }
-        const FrameHeader header{n, 0.0025, {0, -9.81}, false, "1.2.3", {{"cfl", 0.25}, {"spacing", 0.5}}};
+        FrameHeader header{n, 0.0025, {0, -9.81}, false, "1.2.3", {{"cfl", 0.25}, {"spacing", 0.5}}};
+        header.walls = sample_walls();
         file = std::make_unique<FrameFile>(path, header, fields, std::vector<const double *>{id.data(), column.data()},
                                            compression, single);
     }
@@ -66,7 +80,7 @@ public:
                 values[static_cast<size_t>(c)][k] = sample(c, t, static_cast<int64_t>(k));
             components.push_back(values[static_cast<size_t>(c)].data());
         }
-        file->write(10 * t, sample_time(t), components);
+        file->write(10 * t, sample_time(t), components, {}, sample_wall_points(t));
     }
     void write(int frames) {
         while (frames-- > 0)
@@ -184,6 +198,11 @@ inline std::string check_frames(const std::string &path, int64_t n, int64_t at_l
     for (int64_t t = 0; t < *frames; ++t)
         if (time[static_cast<size_t>(t)] != sample_time(t) || step[static_cast<size_t>(t)] != 10 * t)
             return "wrong time or step " + std::to_string(t);
+    if (r.integers("/walls/plate") != sample_walls().plate || r.integers("/walls/segments") != sample_walls().segments)
+        return "wrong walls";
+    for (int64_t t = 0; t < *frames; t += t % view_step == 0 || t + 2 >= *frames ? 1 : view_step - t % view_step)
+        if (r.numbers(view(t, "walls")) != sample_wall_points(t))
+            return "the walls stand wrongly in frame " + std::to_string(t);
     int c = 0;
     for (const FrameField &field : fields) {
         if (field.constant)

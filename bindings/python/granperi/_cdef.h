@@ -90,6 +90,7 @@ typedef struct gp_material {
     double mu_s;
     double mu_2;
     double i0;
+    double k0;
 } gp_material;
 
 gp_status gp_material_init(gp_material *material, size_t size);
@@ -164,6 +165,8 @@ gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy);
 
 gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
+
+gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
 
 gp_status gp_step(gp_sim *sim, int64_t n);
 
@@ -290,6 +293,8 @@ typedef struct gp_state {
     double centre_y;
     double detached;
     double volume_drift;
+    double gravity_x;
+    double gravity_y;
 } gp_state;
 
 gp_status gp_get_state(gp_sim *sim, gp_state *state);

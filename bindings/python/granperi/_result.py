@@ -153,7 +153,7 @@ class FileSnapshot(Snapshot):
         return self._result.friction_factor
 
     def plate_lines(self) -> list[np.ndarray]:
-        return [plate.at(self.time) for plate in self._result._plates]
+        return self._result._plate_lines(self._frame)
 
 
 class Result:
@@ -237,8 +237,7 @@ class Result:
         return tuple(name for name in FIELD_NAMES if self.has(name))
 
     def _read(self, name: str, frame: int) -> np.ndarray:
-        if self._file is None:
-            raise StateError(f"{self.path} is closed: read within its with block, or open it anew")
+        self._open()
         if not self.has(name):
             raise ArgumentError(f"{self.path} has no field '{name}': it has {', '.join(self.fields)}; write it with "
                                 "output(fields=...) or gp_output.fields")
@@ -253,10 +252,20 @@ class Result:
         """The states at the frames. What differs from run to run, wall_seconds, is not in the file: NaN."""
         return History(self._state(frame) for frame in range(len(self)))
 
-    def _state(self, frame: int) -> State:
+    def _plate_lines(self, frame: int) -> list[np.ndarray]:
+        file = self._open()
+        if "walls" not in file:  # of 0.1: no more than the scene is known
+            return [plate.at(float(self.times[frame])) for plate in self._plates]
+        plate, points = file["walls/plate"][()], file[f"frames/{frame - frame % 256:06d}/{frame:06d}/walls"][:, :2]
+        return np.split(points, np.flatnonzero(np.diff(plate)) + 1)
+
+    def _open(self) -> "h5py.File":
         if self._file is None:
             raise StateError(f"{self.path} is closed: read within its with block, or open it anew")
-        values = self._file["observables/state/value"]
+        return self._file
+
+    def _state(self, frame: int) -> State:
+        values = self._open()["observables/state/value"]
         return _state_of(dict(zip((name.decode() for name in values.attrs["names"]), values[frame])))
 
     def __repr__(self) -> str:
@@ -266,6 +275,7 @@ class Result:
 # What a frame does not hold: wall-clock time, and what the version that wrote the file did not know.
 _ABSENT = {"wall_seconds": float("nan"), "spacing_dissipated": float("nan"), "centre_x": float("nan"),
            "centre_y": float("nan"), "detached": float("nan"), "volume_drift": float("nan"),
+           "gravity_x": float("nan"), "gravity_y": float("nan"),
            **{name: float("nan") for name in MARKS.values()}}
 _KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
 

@@ -183,6 +183,15 @@ class Simulation:
                 engine.before_change(name)
             check(getattr(lib, "gp_" + name)(engine.sim, whole("plate", plate, 32), *values))
 
+    def set_gravity(self, gx: float, gy: float) -> None:
+        """Gravity [m/s2] from now on; possible at any time, also in a callback. Before the first step it replaces the
+        config's."""
+        gx, gy = number("gx", gx), number("gy", gy)
+        with self._engine.locked("set_gravity") as engine:
+            if engine.exports and not engine.running:
+                engine.before_change("set_gravity")
+            check(lib.gp_set_gravity(engine.sim, gx, gy))
+
     def _changing(self, name: str):
         engine = self._engine
         if engine.exports and not engine.closed:
@@ -255,7 +264,8 @@ class Simulation:
         """Has callback(sim) called after every `every`-th step; None: no longer.
 
         A true return value stops the run. An exception stops the run and comes out of step() or run() as it was raised.
-        In the callback the simulation can be read, driven (set_plate_velocity, set_plate_motion) and written to its open output.
+        In the callback the simulation can be read, driven (set_plate_velocity, set_plate_motion, set_gravity) and written to
+        its open output.
         """
         every = whole("every", every)
         if callback is not None and not callable(callback):

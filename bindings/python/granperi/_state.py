@@ -69,6 +69,8 @@ class State:
     centre_y: float
     detached: float
     volume_drift: float
+    gravity_x: float
+    gravity_y: float
 
     @property
     def quantiles(self) -> dict[float, float]:

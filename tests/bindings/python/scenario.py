@@ -40,10 +40,11 @@ def main() -> None:
         wheel = sim.add_plate(points=[[0.17, 0.03], [0.15, 0.05], [0.13, 0.03], [0.15, 0.01], [0.17, 0.03]], pivot_x=0.15,
                               pivot_y=0.03)
 
-        # The lid sinks faster and faster: 4 m/s2; the wheel turns faster and faster.
+        # The lid sinks faster and faster: 4 m/s2; the wheel turns faster and faster; and the scene is tilted.
         def drive(sim: granperi.Simulation) -> None:
             sim.set_plate_velocity(lid, 0, -4 * sim.time)
             sim.set_plate_motion(wheel, -0.25, 0, 512 * sim.time)
+            sim.set_gravity(50 * sim.time, -9.5)
 
         sim.set_callback(drive, EVERY)
         for _ in range(3):

@@ -164,10 +164,18 @@ def test_pictures_show_where_a_line_is(tmp_path):
     import granperi.plot
 
     with drum(omega=2) as sim:
-        sim.record(tmp_path / "drum.h5", 0.1, 0.05)
+        sim.add_plate(x0=0.3, x1=0.2, normal_pressure=10)  # rises by its load
+        with sim.output(tmp_path / "drum.h5") as output:
+            output.write()
+            sim.run(0.05)
+            sim.set_plate_motion(0, 0.1, 0, -2)  # as no scene has it
+            sim.run(0.1)
+            output.write()
         with granperi.Result(tmp_path / "drum.h5") as result:
-            assert result[-1].plate_lines()[0] == pytest.approx(sim.plates[0].placed(0, 0, 0.2))
+            assert result[-1].plate_lines()[0] == pytest.approx(sim.plates[0].placed(0.005, 0, 0), abs=1e-12)
             assert np.array_equal(result[0].plate_lines()[0], sim.plates[0].points)
+            load = sim.plate_load(1)
+            assert load.dy > 0.001 and result[-1].plate_lines()[1] == pytest.approx(sim.plates[1].placed(load.dx, load.dy))
             axes = granperi.plot.field(result)
             drawn, = (line for line in axes.lines if line.get_gid() == "plate")
             assert np.array_equal(np.column_stack(drawn.get_data()), result[-1].plate_lines()[0])
