@@ -30,7 +30,7 @@ def _parts(results: Collection, run: runs.Run) -> list[tuple[float, float]]:
 
 
 def figure(path: Path, results: Collection) -> bool:
-    drawn, axes = False, None
+    drawn = False
     fig, axes = plt.subplots(figsize=(9, 4.8), layout="constrained")
     for run in runs.hoppers():
         rows, filling = int(run.arguments[2]), int(run.arguments[-1])
@@ -47,7 +47,7 @@ def figure(path: Path, results: Collection) -> bool:
             ms=9,
             label=f"D/dl = {rows}, filled to {filling} D",
         )
-    axes.axhline(ref.BASILISK_SILO_RATE, color="0.35", linestyle="--", lw=1.7, label="Basilisk, line drawn for D = 0.31 to 1.1")
+    axes.axhline(ref.BASILISK_SILO_RATE, color="0.35", linestyle="--", lw=1.7, label="Basilisk, for D = 0.31 to 1.1")
     axes.set_xlabel("filling left, H/D")
     axes.set_ylabel("Q / (ρ √g D^1.5)")
     axes.set_ylim(0, 1.7)
@@ -79,7 +79,10 @@ def _table(results: Collection) -> str:
 
 
 def _result(results: Collection) -> str:
-    pairs = [[_value(results, runs.hopper(rows, filling), "rate") for filling in runs.HOPPER_FILLINGS] for rows in runs.HOPPER_ROWS]
+    pairs = [
+        [_value(results, runs.hopper(rows, filling), "rate") for filling in runs.HOPPER_FILLINGS]
+        for rows in runs.HOPPER_ROWS
+    ]
     known = [(low, high) for low, high in pairs if low is not None and high is not None]
     if not known:
         return ""
@@ -94,13 +97,13 @@ def _result(results: Collection) -> str:
 def section(results: Collection, drawn_figure: str) -> str:
     return f"""{_result(results)}
 
-A silo {5:d} D wide with a flat floor and rough walls, an outlet of D = 0.05 m in its middle, open from the start; means from 0.2 to
-0.8 s. The friction is that of {ref.STARON_SILO}: μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}, d = D/20. A fluid's
-rate would fall with the square root of the filling: to {100 * 0.5**0.5:.0f} % at half of it.
+A silo 5 D wide with a flat floor and rough walls, an outlet of D = 0.05 m in its middle, open from the start; means from
+0.2 to 0.8 s. μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}, d = D/20. A fluid's rate would fall with the square root of the
+filling: to {100 * 0.5**0.5:.0f} % at half of it.
 
-Published beside it: {ref.BASILISK_SILO_SOURCE}. {ref.STARON_SILO} and (2014) report the same independence of the filling and the power 1.5
-by the same law; a figure of theirs for the coefficient could not be read (their text is known to us by its abstract). The
-coefficient of experiments in three dimensions, 0.58, belongs to another shape of outlet.
+Beside it: {ref.BASILISK_SILO_SOURCE}.
+{ref.STARON_SILO} report by the same law that the rate
+does not depend on the filling and goes by the power 1.5; their coefficient could not be looked up.
 
 {_table(results)}
 

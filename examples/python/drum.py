@@ -50,8 +50,9 @@ def main():
         example.fill(sim, -RADIUS, RADIUS, -RADIUS, RADIUS, lambda x, y: (y < level) & (np.hypot(x, y) < inner))
         sim.set_callback(look, 100)
         example.run(sim, options)
-        turned, work, dissipated = sim.plate_load(0).angle, -options.omega * sim.plate_load(0).impulse_torque, sim.state.dissipated
+        load, dissipated = sim.plate_load(0), sim.state.dissipated
 
+    turned, work = load.angle, -options.omega * load.impulse_torque
     print(f"turned              {turned:.4f} rad")
     if len(looks) > 1:
         _, angle, first_work, first_dissipated = looks[0]

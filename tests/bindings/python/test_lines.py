@@ -177,7 +177,7 @@ def test_pictures_show_where_a_line_is(tmp_path):
             load = sim.plate_load(1)
             assert load.dy > 0.001 and result[-1].plate_lines()[1] == pytest.approx(sim.plates[1].placed(load.dx, load.dy))
             axes = granperi.plot.field(result)
-            drawn, = (line for line in axes.lines if line.get_gid() == "plate")
+            drawn, _ = (line for line in axes.lines if line.get_gid() == "plate")
             assert np.array_equal(np.column_stack(drawn.get_data()), result[-1].plate_lines()[0])
             # All of the drum is to be seen, not only its filled part.
             assert axes.get_ylim()[1] > 0.1 and axes.get_xlim()[0] < -0.1
