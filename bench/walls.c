@@ -78,7 +78,7 @@ int main(int argc, char **argv) {
         {"hopper", hopper, 10, 0, 0.8},
     };
     const int n = (int)(sizeof cases / sizeof cases[0]);
-    choices c = {NAN, NAN, 0, NAN, 5, 0};
+    choices c = {.rows = NAN, .angle = NAN, .end = NAN, .filling = 5};
     double coulomb = 0;
     const bench_option options[] = {
         {"--rows",
@@ -91,6 +91,7 @@ int main(int argc, char **argv) {
         {"--filling", "outlets, of a hopper [5]", BENCH_NUMBER, &c.filling, 2, 100},
         {"--coulomb", "1: a floor with the Coulomb friction of the material, of layers that slide [0]", BENCH_WHOLE,
          &coulomb, 0, 1},
+        {"--bed", "m, thickness of the layer under the column [0]", BENCH_NUMBER, &c.bed, 0, 1},
     };
     int k = 0;
     example_program(argv[0]);

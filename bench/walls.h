@@ -11,12 +11,13 @@
 #define DENSITY 1550.0 /* kg/m3, of the flow */
 
 typedef struct choices {
-    double rows;     /* spacings in the layer, in the height of the column in the width of the silo or in the outlet */
+    double rows;     /* spacings in the layer, in the height of the column, in the width of the silo or in the outlet */
     double angle;    /* degrees, of the incline */
     double jitter;   /* spacings */
     double end;      /* s */
     double filling;  /* of a hopper, outlets high */
     int32_t coulomb; /* 1: the floor has the Coulomb friction of the material in place of a rough surface */
+    double bed;      /* m, thickness of a layer of the same grains under the column, that can be eroded */
 } choices;
 
 gp_config walls_config(const choices *c, double spacing);
@@ -37,7 +38,7 @@ void slide_inertial(const choices *c);
 void incline_start(const choices *c);
 /* The same, long: height and velocity of the surface, at four times. */
 void incline_shear(const choices *c);
-/* A column released on an incline, a wall behind it: where its mass comes to rest. */
+/* A column released on an incline or on a layer of its grains, a wall behind it: where its mass comes to rest. */
 void incline_column(const choices *c);
 /* A silo that empties through an outlet in its floor: the flow rate, and the same in four parts of the time from .2 s on. */
 void hopper(const choices *c);

@@ -76,6 +76,10 @@ struct PlateSpec {
 
     explicit PlateSpec(std::vector<Vector> line);
     void set_pivot(const Vector &at);
+    // Where it stands at time 0.
+    Pose first_pose() const {
+        return table.empty() ? Pose{start, start_angle} : Pose{table.displacement(0), table.turn(0)};
+    }
     // Is a segment whose normal is this one within a distance of a point?
     bool lies_at(const Vector &point, const Vector &normal, double within) const;
     bool closed() const { return points.front() == points.back(); }
@@ -102,6 +106,34 @@ struct MaterialConstants {
     Regularized law;
 };
 
+// Sound speed over the largest flow speed, so that the density varies by about 1 % ([1], section 2.2).
+constexpr double sound_to_flow_speed = 10.0;
+
+// Speed of the hardest blow over the sound speed. In theory what is stopped at v is compressed by v / c0, bearing rho c v. Blocks
+// that fall on a rough floor, 6 x 6 to 40 x 20, also without sides, with and without jitter; compression in v / c0 where they are
+// densest and of the densest fifth; largest energy error over the kinetic energy, in %:
+//
+//   c0 / v   densest       fifth        energy
+//     10     1.0 to 2.5    .2 to 1.0    -8.5
+//     33      .7 to 2.8    .1 to 1.0    -0.8 to -3.9
+//     50      .6 to 2.8     0 to 1.0    -0.6 to -2.2
+//     60      .6 to 2.5     0 to 1.0    -0.5 to -1.8
+//
+// The energy error is in proportion to the time step, too (33: -3.8, -1.8, -.9, -.5 % with cfl .8, .4, .2, .1), so a longer step
+// with a smaller sound speed is no gain. There is no plateau in what becomes of a block that falls far: the stiffer, the less of
+// its energy it springs back with (a block of 20 x 10 spacings from .5 m: .30, .19, .09 with c0 / v = 10, 33, 100), and the
+// narrower its heap (the middle half of its mass within .64, .57, .39, .25 m with 10, 20, 40, 80).
+constexpr double most_blow = 1.0 / 60;
+
+// A blow that a scene foresees (scene_falls.hpp).
+struct Impact {
+    double speed = 0;   // m/s, along the normal of what is met; 0: none
+    double fall = 0;    // m, the part of the way that is a free fall; 0: by the velocity with which it begins
+    int32_t body = -1;  // that meets
+    int32_t plate = -1; // the plate, or
+    int32_t onto = -1;  // the body that is met
+};
+
 // What follows from the scene once it is complete.
 struct Constants {
     Scheme scheme;
@@ -117,6 +149,8 @@ struct Constants {
     double sound_speed;              // c0, m/s
     double flow_speed; // m/s, the largest that the scene can reach; at the start the sound speed is based on it
     bool sound_speed_is_arbitrary; // nothing in the scene sets a speed
+    Impact impact;                 // the hardest; none with the number density
+    bool sound_speed_is_of_impact; // chosen for it
     double wave_speed;             // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), c0 without G; m/s
     double fall_height;            // m, that the flow speed is based on
     double plate_mass;             // kg/m2, of a loaded plate that has none of its own

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene.hpp"
+#include "scene_falls.hpp"
 
 namespace gp {
 
@@ -24,9 +25,6 @@ double shear_to_bulk_of(const gp_material &m) {
         return shear_to_bulk;
     return std::max((1 - m.k0) / (1 + m.k0), least_shear_to_bulk);
 }
-
-// Sound speed over the largest flow speed, so that the density varies by about 1 % ([1], section 2.2).
-constexpr double sound_to_flow_speed = 10.0;
 
 // Largest time step of a loaded plate of mass m per area, over sqrt(m dl / rho) / wave speed: it rests on a spring of the
 // stiffness rho c^2 / dl per area.
@@ -249,9 +247,13 @@ Constants Scene::constants() const {
     const Range densities = densities_in_use(*this);
     const double lightest = densities.low, heaviest = std::max(densities.high, 0.0);
     set_fall(c, {config_.gravity_x, config_.gravity_y}, x.data(), y.data(), particle_count());
+    if (!by_number_density(c.scheme))
+        c.impact = hardest_impact(*this);
+    const double of_flow = sound_to_flow_speed * c.flow_speed, of_impact = c.impact.speed / most_blow;
     c.sound_speed_is_arbitrary = config_.sound_speed == 0 && c.flow_speed == 0;
+    c.sound_speed_is_of_impact = config_.sound_speed == 0 && of_impact > of_flow;
     c.sound_speed =
-        config_.sound_speed > 0 ? config_.sound_speed : (c.flow_speed > 0 ? sound_to_flow_speed * c.flow_speed : 1.0);
+        config_.sound_speed > 0 ? config_.sound_speed : (c.flow_speed > 0 ? std::max(of_flow, of_impact) : 1.0);
     double stiffest = shear_to_bulk;
     for (const gp_material &m : materials_)
         stiffest = std::max(stiffest, shear_to_bulk_of(m));

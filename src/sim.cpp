@@ -308,6 +308,8 @@ void Sim::require_steppable() const {
     check_demanded_step();
     if (world_->clock.step == 0)
         stages::require_moderate_flow(*world_);
+    if (const std::string note = warnings_.note_of_scene(*world_); !note.empty())
+        log(GP_LOG_INFO, note);
     warn(self.warnings_.of_scene(*world_));
     self.started_ = true;
 }

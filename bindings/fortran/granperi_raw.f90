@@ -65,7 +65,9 @@ module granperi_raw
         real(c_double) :: gravity_y !! m/s2 [-9.81]
         real(c_double) :: sound_speed
             !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
-            !! lowest point, by its initial and plate velocities [0]
+            !! lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest
+            !! blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a
+            !! plate or another column (not with GP_DENSITY_NUMBER). The log says so and what it costs [0]
         real(c_double) :: cfl
             !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
             !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
@@ -102,8 +104,8 @@ module granperi_raw
             !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
             !! whole number of spacings [0, 0]
         integer(c_int32_t) :: threads
-            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
-            !! for any number
+            !! threads that work on this simulation, the calling one among them; 0: OpenMP's default (all processors, or
+            !! OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any number
         integer(c_int64_t) :: seed !! of the jitter [0]
         real(c_double) :: jitter
             !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
@@ -420,6 +422,12 @@ module granperi_raw
         real(c_double) :: gravity_y !! m/s2, in force from here on
     end type
 
+    !> Parts of gp_state that take time to find.
+    integer(c_int32_t), parameter :: GP_STATE_DEPOSIT = 1 !! x_left, x_right, peak_x, peak_height, detached
+    integer(c_int32_t), parameter :: GP_STATE_MARKS = 2 !! x_q01 .. x_q99
+    integer(c_int32_t), parameter :: GP_STATE_DRIFT = 4 !! volume_drift
+    integer(c_int32_t), parameter :: GP_STATE_ALL = 7
+
     type, bind(c) :: gp_load
         integer(c_int32_t) :: struct_size = 0 !! set by the caller
         real(c_double) :: fx !! N/m, force of the material on the plate over the last step
@@ -454,7 +462,9 @@ module granperi_raw
             !! GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written [position,
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t) :: compression !! deflate level, 0 .. 9 [4]
-        integer(c_int32_t) :: single_precision !! 1: floating-point fields as 32 bits; time stays 64 [0]
+        integer(c_int32_t) :: single_precision
+            !! 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are rounded to
+            !! 1e-5 spacings, wherever they are, which compresses as well as 32 bits
         integer(c_int64_t) :: append
             !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
     end type
@@ -692,14 +702,20 @@ module granperi_raw
         end function
 
         !> log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per
-        !> simulation, with its figure and with what to change. At the first step: a sound_speed that nothing sets or
-        !> below the speeds that the scene can reach, particles within a quarter spacing of a plate's line, a column
-        !> thinner than 3 spacings, a time step beyond the stable limit. Later: gravity for which the sound speed is too
-        !> low (gp_set_gravity), a step taken anew, compression above 3 % (not of the schemes of [1]), a plate in reach
-        !> of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, more
-        !> than 10 % of the dissipation by the zero-energy penalty, an energy error above 2 % of the largest energy in
-        !> the ledger and, every 1024 steps, particles that lie more than 2 % closer than their density says where at
-        !> least a fifth of them flow (gp_state.volume_drift; these three not of the schemes of [1]).
+        !> simulation, with its figure and with what to change. At the first step: - a plate with material only on the
+        !> side of its body; material within a horizon and a spacing behind a plate that no other plate faces, or across
+        !> its line; - a column or set of particles more than half of which has nothing below it in the direction of
+        !> gravity, neither a plate that faces it nor a column that is borne; a scene without material; - a sound_speed
+        !> that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
+        !> plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the
+        !> stable limit. Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew,
+        !> compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in
+        !> reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
+        !> particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy
+        !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
+        !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
+        !> the schemes of [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves
+        !> its cost.
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim
@@ -728,10 +744,23 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step.
+        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second
+        !> call without a step between costs nothing.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
+            type(gp_state), intent(inout), optional :: state
+            integer(c_int32_t) :: answer
+        end function
+
+        !> The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger,
+        !> momentum, speeds, max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5
+        !> % of a time step, GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where
+        !> all flows.
+        function gp_get_state_parts(sim, parts, state) bind(c, name="gp_get_state_parts") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: parts
             type(gp_state), intent(inout), optional :: state
             integer(c_int32_t) :: answer
         end function

@@ -241,10 +241,11 @@ module granperi_simulation
         ! ------------------------------------------------------------------------------------------ reading, files
 
         !> Clock, energy ledger, shape, rest.
-        module function state(self, status, message) result(read)
+        module function state(self, status, message, parts) result(read)
             class(gp_simulation), intent(in) :: self
             integer(c_int32_t), intent(out), optional :: status
             character(*), intent(out), optional :: message
+            integer(c_int32_t), intent(in), optional :: parts !! GP_STATE_... added up, or 0; else all. The others are NaN
             type(gp_state) :: read
         end function
 

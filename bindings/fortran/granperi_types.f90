@@ -71,6 +71,10 @@ module granperi_types
     public :: GP_DT_DEMANDED
     public :: GP_DT_END
     public :: GP_DT_RETRY
+    public :: GP_STATE_DEPOSIT
+    public :: GP_STATE_MARKS
+    public :: GP_STATE_DRIFT
+    public :: GP_STATE_ALL
 
     !> What the library holds, not copied: read it, do not write it.
     type :: gp_particles
@@ -142,7 +146,9 @@ contains
         real(c_double), intent(in), optional :: gravity_y !! m/s2 [-9.81]
         real(c_double), intent(in), optional :: sound_speed
             !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
-            !! lowest point, by its initial and plate velocities [0]
+            !! lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest
+            !! blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a
+            !! plate or another column (not with GP_DENSITY_NUMBER). The log says so and what it costs [0]
         real(c_double), intent(in), optional :: cfl
             !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
             !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
@@ -182,8 +188,8 @@ contains
             !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
             !! whole number of spacings [0, 0]
         integer(c_int32_t), intent(in), optional :: threads
-            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
-            !! for any number
+            !! threads that work on this simulation, the calling one among them; 0: OpenMP's default (all processors, or
+            !! OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any number
         integer(c_int64_t), intent(in), optional :: seed !! of the jitter [0]
         real(c_double), intent(in), optional :: jitter
             !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
@@ -396,7 +402,8 @@ contains
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t), intent(in), optional :: compression !! deflate level, 0 .. 9 [4]
         integer(c_int32_t), intent(in), optional :: single_precision
-            !! 1: floating-point fields as 32 bits; time stays 64 [0]
+            !! 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are rounded to
+            !! 1e-5 spacings, wherever they are, which compresses as well as 32 bits
         integer(c_int64_t), intent(in), optional :: append
             !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
         integer(c_int32_t), intent(out), optional :: status

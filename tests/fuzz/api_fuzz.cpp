@@ -282,6 +282,9 @@ void read(Host &host, Bytes &in) {
     gp_particles particles{};
     particles.struct_size = in.below(4) ? sizeof particles : in.byte();
     ALWAYS(checked(gp_get_clock(host.sim, &values[0], nullptr, &n)) == GP_OK);
+    gp_state state{};
+    state.struct_size = in.below(4) ? sizeof state : in.byte();
+    checked(gp_get_state_parts(host.sim, in.byte() % (GP_STATE_ALL + 2), &state));
     checked(gp_get_surface(host.sim, in.below(7) - 1, values, out));
     checked(gp_get_interface(host.sim, in.below(4) - 1, in.below(4) - 1, in.below(6), values, out));
     checked(gp_get_plate_load(host.sim, in.below(5) - 1, &load));

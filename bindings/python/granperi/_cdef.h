@@ -297,7 +297,16 @@ typedef struct gp_state {
     double gravity_y;
 } gp_state;
 
+enum {
+    GP_STATE_DEPOSIT = 1,
+    GP_STATE_MARKS = 2,
+    GP_STATE_DRIFT = 4,
+    GP_STATE_ALL = 7
+};
+
 gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state);
 
 gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step);
 

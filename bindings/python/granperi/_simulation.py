@@ -286,6 +286,18 @@ class Simulation:
         with self._engine.locked("state") as engine:
             return _state.read_state(engine.sim)
 
+    def state_parts(self, *, deposit: bool = False, marks: bool = False, drift: bool = False) -> State:
+        """The state without what takes time to find, but for the parts asked for; the fields of the others are NaN.
+
+            sim.state_parts().at_rest
+
+        Without any it costs 2 to 5 % of a time step, the whole state about one. deposit: x_left, x_right, peak_x,
+        peak_height, detached; marks: x_q01 to x_q99; drift: volume_drift.
+        """
+        parts = deposit * lib.GP_STATE_DEPOSIT | marks * lib.GP_STATE_MARKS | drift * lib.GP_STATE_DRIFT
+        with self._engine.locked("state_parts") as engine:
+            return _state.read_state(engine.sim, parts)
+
     @property
     def clock(self) -> Clock:
         """Time [s], last time step [s] and number of steps, at no cost: the state takes about as long as a step."""
@@ -305,7 +317,7 @@ class Simulation:
 
         Unlike the fronts (state.x_left, state.x_right), which single grains set, they converge with the spacing.
         """
-        return self.state.quantiles
+        return self.state_parts(marks=True).quantiles
 
     @property
     def n_particles(self) -> int:
