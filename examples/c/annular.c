@@ -1,7 +1,8 @@
 /* An annular shear cell: the inner wall turns, the outer one presses, no gravity. Torque and flow beside the law mu(I).
  *
  * The moment M of the stress does not depend on the radius, so tau = M / (2 pi r^2) falls outwards; where it falls below
- * mu_s p the material rests. The outer wall is a ring of plates under a load each, which keeps the pressure; it does not keep
+ * mu_s p the material rests. The band that flows is 9 mm thick: with 4 spacings in it the moment is 10 % too large, with
+ * 8 (--resolution 24) 2 %. The outer wall is a ring of plates under a load each, which keeps the pressure; it does not keep
  * its place, so a cell whose resting part is thick slowly begins to wander about the inner wall. */
 #include <math.h>
 #include <stdio.h>
