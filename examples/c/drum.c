@@ -77,7 +77,7 @@ static int32_t look(void *user, gp_sim *sim) {
 int main(int argc, char **argv) {
     static record r;
     double spacing;
-    example_options options = example_defaults(20, 9.5, "drum.h5");
+    example_options options = example_defaults(40, 4, "drum.h5");
     const example_extra omega_option = {"--omega", "RATE", "of turning, rad/s", &r.omega, 0.01, 5, 0};
     gp_sim *sim;
     gp_state state;

@@ -91,8 +91,8 @@ program drum
     real(gp_real) :: spacing, work
 
     options%output = "drum.h5"
-    options%resolution = 20
-    options%end = 9.5_gp_real
+    options%resolution = 40
+    options%end = 4
     options%lift_time = -1
     omega = example_extra("--omega", "of turning, rad/s", 1.0_gp_real, 0.01_gp_real, 5.0_gp_real)
     call parse_options("Glass beads in a drum that turns, 0.2 m wide. Reference length: its radius.", options, omega)

@@ -27,8 +27,8 @@ def level_of(share):
 
 
 def main():
-    parser = example.parser("Glass beads in a drum that turns, 0.2 m wide. Reference length: its radius.", resolution=20,
-                            end=9.5, output="drum.h5", gates=False)
+    parser = example.parser("Glass beads in a drum that turns, 0.2 m wide. Reference length: its radius.", resolution=40,
+                            end=4.0, output="drum.h5", gates=False)
     parser.add_argument("--omega", type=example.number(0.01, 5), default=1.0, help="of turning, rad/s")
     options = parser.parse_args()
     spacing = RADIUS / options.resolution
