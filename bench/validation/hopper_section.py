@@ -89,8 +89,8 @@ def _result(results: Collection) -> str:
     worst = max(abs(high / low - 1) for low, high in known)
     rates = [rate for pair in known for rate in pair]
     return (
-        f"**The flow rate does not know how much is left: twice the filling changes it by {100 * worst:.1f} % at most. "
-        f"It is {min(rates):.2f} to {max(rates):.2f} ρ √g D^1.5.**"
+        f"**The flow rate is {min(rates):.2f} to {max(rates):.2f} ρ √g D^1.5, and twice the filling changes it by "
+        f"{100 * worst:.1f} % at most.**"
     )
 
 
@@ -98,8 +98,8 @@ def section(results: Collection, drawn_figure: str) -> str:
     return f"""{_result(results)}
 
 A silo 5 D wide with a flat floor and rough walls, an outlet of D = 0.05 m in its middle, open from the start; means from
-0.2 to 0.8 s. μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}, d = D/20. A fluid's rate would fall with the square root of the
-filling: to {100 * 0.5**0.5:.0f} % at half of it.
+0.2 to 0.8 s. μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}, d = D/20. A fluid's rate would go by the square root of the
+filling: {100 * (2**0.5 - 1):.0f} % more at twice as much.
 
 Beside it: {ref.BASILISK_SILO_SOURCE}.
 {ref.STARON_SILO} report by the same law that the rate
