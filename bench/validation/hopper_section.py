@@ -102,8 +102,8 @@ def section(results: Collection, drawn_figure: str) -> str:
     return f"""{_result(results)}
 
 A silo 5 D wide with a flat floor and rough walls, an outlet of D = 0.05 m in its middle, open from the start; means from
-0.2 to 0.8 s. μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}, d = D/20; glass beads have 21°, 32° and 0.3. A fluid's rate would go by the square root of the
-filling: {100 * (2**0.5 - 1):.0f} % more at twice as much.
+0.2 to 0.8 s. μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}; glass beads have 21°, 32° and 0.3; d = D/20. A
+fluid's rate would go by the square root of the filling: {100 * (2**0.5 - 1):.0f} % more at twice as much.
 
 Beside it: {ref.BASILISK_SILO_SOURCE}.
 {ref.STARON_SILO} report by the same law that the rate

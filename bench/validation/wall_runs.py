@@ -57,7 +57,7 @@ def hopper(rows: int, filling: float, beads: bool = False) -> Run:
     return Run(
         f"hopper_{'beads_' if beads else ''}{rows}_{filling:g}",
         "walls",
-        ("hopper", "--beads", str(int(beads)), "--rows", str(rows), "--filling", f"{filling:g}"),
+        ("hopper", *(("--beads", "1") if beads else ()), "--rows", str(rows), "--filling", f"{filling:g}"),
         1.7 * filling * (rows / 10) ** 3,
     )
 
