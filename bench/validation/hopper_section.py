@@ -12,7 +12,7 @@ from plotting import finish
 from results import Collection
 
 MARKERS = {5: "o", 10: "s"}
-COLORS = {(10, False): "#0072B2", (20, False): "#D55E00", (10, True): "#009E73"}
+COLORS = {(10, False): "#0072B2", (20, False): "#D55E00", (10, True): "#009E73", (20, True): "#CC79A7"}
 
 
 def _value(results: Collection, run: runs.Run, name: str) -> float | None:

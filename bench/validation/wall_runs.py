@@ -17,7 +17,7 @@ COLUMN_ROWS = (28, 56)  # spacings in the height
 COLUMN_HEIGHT = 0.14  # m
 BED_ANGLE, BED = 10, 0.01  # degrees, m: the column on a layer of its grains
 SILO_ROWS = (12, 24)  # spacings in the width
-HOPPERS = ((10, False), (20, False), (10, True))  # spacings in the outlet; glass beads, or the published friction
+HOPPERS = ((10, False), (20, False), (10, True), (20, True))  # spacings in the outlet; glass beads, or the published friction
 HOPPER_FILLINGS = (5, 10)  # outlets, height of the filling
 HOPPER_PARTS = 4  # of the time, as the program has them
 
