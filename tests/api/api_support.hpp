@@ -206,7 +206,8 @@ inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
         add(value);
     for (int32_t k = 0; k < plates; ++k) {
         const auto load = sim.load(k);
-        for (const double value : {load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y})
+        for (const double value : {load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y,
+                                   load.torque_pivot, load.angle, load.impulse_torque})
             add(value);
     }
     return bits;
