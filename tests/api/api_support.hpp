@@ -156,6 +156,8 @@ inline uint64_t bits_of(double value) {
     return bits;
 }
 
+constexpr int numbers_of_load = 10;
+
 // All that the simulation shows, as bits: every field in the order of id, the state but for the wall-clock time, loads.
 inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
     std::vector<uint64_t> bits;

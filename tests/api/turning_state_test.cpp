@@ -105,6 +105,17 @@ TEST(TurningState, GoesOnFromACheckpoint) {
 }
 #endif
 
+namespace {
+
+// But for volume_drift, which counts ghosts that the lists see: those of a step undone are new ones.
+std::vector<uint64_t> shown(const Sim &sim) {
+    std::vector<uint64_t> bits = snapshot(sim, plates);
+    bits.erase(bits.end() - numbers_of_load * plates - 1);
+    return bits;
+}
+
+} // namespace
+
 // A step that diverges leaves what was before it, the angles and loads of plates included.
 TEST(TurningState, IsThatOfTheLastGoodStep) {
     const double limit = Turning().sim.state().dt_limit;
@@ -115,12 +126,12 @@ TEST(TurningState, IsThatOfTheLastGoodStep) {
         std::vector<uint64_t> before;
         int64_t step = 0;
         for (; step < 500 && status == GP_OK; ++step) {
-            before = snapshot(turning.sim, plates);
+            before = shown(turning.sim);
             status = Turning::go(turning.sim, step, step + 1);
         }
         ASSERT_EQ(status, GP_E_DIVERGED) << gp_last_error();
         EXPECT_GT(step, 1);
-        EXPECT_TRUE(snapshot(turning.sim, plates) == before);
+        EXPECT_TRUE(shown(turning.sim) == before);
         EXPECT_EQ(gp_step(turning.sim, 1), GP_E_STATE);
     }
 }
