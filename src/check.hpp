@@ -29,6 +29,17 @@ inline void require_between(const char *name, double value, double low, double h
         throw make_error(GP_E_ARGUMENT, "%s = %g: expected a number from %g to %g", name, value, low, high);
 }
 
+// Positions beyond this many spacings from the origin no longer resolve the spacing well (to 2e-4 of it).
+constexpr double farthest_position = 1e12; // dl
+
+inline void require_position(const char *name, double value, double spacing) {
+    require_finite(name, value);
+    const double limit = farthest_position * spacing;
+    if (!(std::abs(value) <= limit))
+        throw make_error(GP_E_ARGUMENT, "%s = %g: expected a number from %g to %g m, 1e12 spacings", name, value,
+                         -limit, limit);
+}
+
 inline void require_choice(const char *name, int64_t value, int64_t count) {
     if (count == 0)
         throw make_error(GP_E_ARGUMENT, "%s = %lld: the simulation has none yet, add it first", name,

@@ -25,12 +25,9 @@ Box way_ahead(const Plate &plate, double time) {
         (velocity.x() < 0 ? way.x_min : way.x_max) = velocity.x() == 0 ? 0.0 : std::copysign(INFINITY, velocity.x());
         (velocity.y() < 0 ? way.y_min : way.y_max) = velocity.y() == 0 ? 0.0 : std::copysign(INFINITY, velocity.y());
     };
-    const Plate::Motion motion = plate.motion();
     const MotionTable &table = plate.spec().table;
-    if (motion.driven) {
-        without_end(motion.driven_velocity);
-    } else if (table.empty()) {
-        without_end(plate.spec().velocity);
+    if (plate.driven() || table.empty()) {
+        without_end(plate.prescribed_motion().velocity);
     } else {
         const Vector now = table.displacement(time);
         for (std::size_t k = 0; k < table.t.size(); ++k)
@@ -44,13 +41,41 @@ Box way_ahead(const Plate &plate, double time) {
     return way;
 }
 
+bool turns_after(const Plate &plate, double time) {
+    const MotionTable &table = plate.spec().table;
+    if (plate.driven() || table.empty())
+        return plate.prescribed_motion().omega != 0;
+    for (std::size_t k = 0; k < table.angle.size(); ++k)
+        if (table.t[k] > time && table.angle[k] != table.turn(time))
+            return true;
+    return false;
+}
+
+// All that it may come to by turning about where its pivot is.
+Box box_of_turns(const Plate &plate) {
+    const Vector pivot = plate.pivot();
+    const double far = plate.spec().farthest;
+    return {pivot.x() - far, pivot.x() + far, pivot.y() - far, pivot.y() + far};
+}
+
+Box box_of_line(const Plate &plate) {
+    const Placing placing = plate.placing();
+    Box box{INFINITY, -INFINITY, INFINITY, -INFINITY};
+    for (const Vector &point : plate.spec().points) {
+        const Vector at = placing.of(point);
+        box = {std::min(box.x_min, at.x()), std::max(box.x_max, at.x()), std::min(box.y_min, at.y()),
+               std::max(box.y_max, at.y())};
+    }
+    return box;
+}
+
 // Has a loaded plate come to rest on the material? energy: below this it counts as such, J/m.
 bool rests(const World &world, const Plate &plate, double energy) {
-    const Segment &s = plate.segment();
-    const double mass = s.length * (plate.spec().mass > 0 ? plate.spec().mass : world.constants.plate_mass);
-    const double speed = plate.motion().fall_speed, load = plate.spec().load * s.length;
+    const PlateSpec &spec = plate.spec();
+    const double mass = spec.length * (spec.mass > 0 ? spec.mass : world.constants.plate_mass);
+    const double speed = plate.state().fall_speed, load = spec.load * spec.back_length;
     return 0.5 * mass * speed * speed <= energy &&
-           std::abs(load + s.normal.dot(plate.force)) <= plate_unbalanced * load;
+           std::abs(load + spec.back_normal.dot(plate.force)) <= plate_unbalanced * load;
 }
 
 // Does a plate move, or will it, that the material feels or comes to feel?
@@ -63,18 +88,18 @@ bool plates_move(const World &world, double energy) {
     const Box material{*x_min, *x_max, *y_min, *y_max};
     return std::any_of(world.walls.plates.begin(), world.walls.plates.end(), [&](const Plate &plate) {
         Box way = way_ahead(plate, world.clock.time);
-        const Segment &s = plate.segment();
+        const Vector &push = plate.spec().back_normal;
         if (plate.loaded() && !rests(world, plate, energy)) {
-            way.x_min -= s.normal.x() < 0 ? INFINITY : 0.0;
-            way.x_max += s.normal.x() > 0 ? INFINITY : 0.0;
-            way.y_min -= s.normal.y() < 0 ? INFINITY : 0.0;
-            way.y_max += s.normal.y() > 0 ? INFINITY : 0.0;
+            way.x_min -= push.x() < 0 ? INFINITY : 0.0;
+            way.x_max += push.x() > 0 ? INFINITY : 0.0;
+            way.y_min -= push.y() < 0 ? INFINITY : 0.0;
+            way.y_max += push.y() > 0 ? INFINITY : 0.0;
         }
-        if (way.x_min == way.x_max && way.y_min == way.y_max)
+        const bool turns = turns_after(plate, world.clock.time);
+        if (way.x_min == way.x_max && way.y_min == way.y_max && !turns && plate.spec().surface_velocity == 0)
             return false;
-        const Vector end = s.origin + s.length * s.tangent;
-        Box swept{std::min(s.origin.x(), end.x()) + way.x_min, std::max(s.origin.x(), end.x()) + way.x_max,
-                  std::min(s.origin.y(), end.y()) + way.y_min, std::max(s.origin.y(), end.y()) + way.y_max};
+        const Box about = turns ? box_of_turns(plate) : box_of_line(plate);
+        Box swept{about.x_min + way.x_min, about.x_max + way.x_max, about.y_min + way.y_min, about.y_max + way.y_max};
         if (world.constants.period) { // it has images at every x
             swept.x_min = -INFINITY;
             swept.x_max = INFINITY;
@@ -86,14 +111,14 @@ bool plates_move(const World &world, double energy) {
 } // namespace
 
 bool is_at_rest(const World &world, double kinetic) {
-    const double scale = std::max(world.ledger.initial, world.ledger.largest_kinetic);
+    const double scale = std::max(world.ledger.scale, world.ledger.largest_kinetic);
     const Constants &c = world.constants;
-    if (plates_move(world, rest_kinetic * scale))
-        return false;
-    if (world.clock.step == 0)
-        return kinetic == 0 && c.gravity.norm() == 0;
-    return kinetic <= rest_kinetic * scale && world.plastic_power * c.time_scale <= rest_plastic * scale &&
-           world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
+    const bool still = world.clock.step == 0
+                           ? kinetic == 0 && c.gravity.norm() == 0
+                           : kinetic <= rest_kinetic * scale &&
+                                 world.plastic_power * c.time_scale() <= rest_plastic * scale &&
+                                 world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
+    return still && !plates_move(world, rest_kinetic * scale); // in this order: plates_move looks at all particles
 }
 
 } // namespace gp

@@ -27,11 +27,11 @@ void Mirrors::find(const Walls &walls, const Particles &particles, const CellGri
         of_ghost.start[g + 1] = static_cast<int64_t>(of_ghost.index.size());
     }
 
-    plate_of_entry.resize(walls.particles_of_ghost.index.size());
+    facet_of_entry.resize(walls.particles_of_ghost.index.size());
     for (int64_t g = 0; g < walls.ghost_count; ++g)
         for (int64_t k = walls.particles_of_ghost.start[g]; k < walls.particles_of_ghost.start[g + 1]; ++k) {
             const int64_t c = walls.contact_of(images.source(walls.particles_of_ghost.index[k]), g);
-            plate_of_entry[k] = c < 0 ? walls.ghost_plate[g] : walls.contacts[c].listed_plate;
+            facet_of_entry[k] = c < 0 ? walls.ghost_facet[g] : walls.contacts[c].listed_facet;
         }
 
     // The same by contact. Those of images belong to the contacts of other particles.

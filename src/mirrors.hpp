@@ -17,7 +17,7 @@ struct Mirrors {
     Field<int64_t> place;         // of an entry in of_ghost.index
 
     // The plate that each entry of Walls::particles_of_ghost is in front of: that of the contact that it is part of.
-    Field<int32_t> plate_of_entry;
+    Field<int32_t> facet_of_entry;
 
     // Of particles within `radius` of the mirror points that are in contact with the ghost's plate.
     void find(const Walls &walls, const Particles &particles, const CellGrid &grid, const Images &images,
@@ -26,7 +26,7 @@ struct Mirrors {
     int64_t bytes() const {
         return of_ghost.bytes() +
                static_cast<int64_t>((contact_start.capacity() + place.capacity()) * sizeof(int64_t) +
-                                    (ghost.capacity() + plate_of_entry.capacity()) * sizeof(int32_t));
+                                    (ghost.capacity() + facet_of_entry.capacity()) * sizeof(int32_t));
     }
 };
 

@@ -34,9 +34,8 @@ bool in_reach(const World &world) {
 
 bool plates_move(const World &world) {
     const std::vector<Plate> &plates = world.walls.plates;
-    return std::any_of(plates.begin(), plates.end(), [&](const Plate &plate) {
-        return plate.moves_after(world.clock.time) || plate.velocity() != Vector::Zero();
-    });
+    return std::any_of(plates.begin(), plates.end(),
+                       [&](const Plate &plate) { return plate.moves_after(world.clock.time) || plate.motion().any(); });
 }
 
 // The time step of the default scheme, in order: reading this table is reading the method.

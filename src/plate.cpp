@@ -1,90 +1,88 @@
 #include "plate.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gp {
 
-Vector Plate::prescribed_displacement(double time) const {
-    if (driven_)
-        return driven_from_ + (time - driven_since_) * driven_velocity_;
+Pose Plate::prescribed_pose(double time) const {
+    if (state_.driven) {
+        const double since = time - state_.driven_since;
+        return {state_.driven_from.shift + since * state_.driven_motion.velocity,
+                state_.driven_from.angle + since * state_.driven_motion.omega};
+    }
     if (!spec_->table.empty())
-        return spec_->table.displacement(time);
-    return spec_->start + time * spec_->velocity;
+        return {spec_->table.displacement(time), spec_->table.turn(time)};
+    return {spec_->start + time * spec_->motion.velocity, spec_->start_angle + time * spec_->motion.omega};
 }
 
-Vector Plate::displacement(double time) const {
-    return prescribed_displacement(time) + fallen_ * spec_->segment.normal;
+Pose Plate::pose(double time) const {
+    Pose pose = prescribed_pose(time);
+    pose.shift += state_.fallen * spec_->back_normal;
+    return pose;
 }
 
 void Plate::fall(double dt, double default_mass) {
-    const Segment &s = spec_->segment;
-    const double mass = s.length * (spec_->mass > 0 ? spec_->mass : default_mass); // kg/m
-    const double change = dt * (spec_->load * s.length + s.normal.dot(force)) / mass;
-    fall_speed_ += change;
-    fallen_ += dt * fall_speed_;
-    velocity_ += change * s.normal;
+    const Vector &normal = spec_->back_normal;
+    const double mass = spec_->length * (spec_->mass > 0 ? spec_->mass : default_mass); // kg/m
+    const double change = dt * (spec_->load * spec_->back_length + normal.dot(force)) / mass;
+    state_.fall_speed += change;
+    state_.fallen += dt * state_.fall_speed;
+    state_.motion.velocity += change * normal;
 }
 
-void Plate::drive(double time, const Vector &velocity) {
-    driven_from_ = prescribed_displacement(time);
-    driven_since_ = time;
-    driven_velocity_ = velocity;
-    driven_ = true;
-    velocity_ = velocity + fall_speed_ * spec_->segment.normal; // the next step's size goes by it
+void Plate::drive(double time, const Motion &motion) {
+    state_.driven_from = prescribed_pose(time);
+    state_.driven_since = time;
+    state_.driven_motion = state_.motion = motion;
+    state_.driven = true;
+    state_.motion.velocity += state_.fall_speed * spec_->back_normal; // the next step's size goes by it
 }
 
 bool Plate::moves_after(double time) const {
     if (loaded())
         return true;
-    if (driven_)
-        return driven_velocity_ != Vector::Zero();
     if (by_table())
         return time < spec_->table.last_time();
-    return spec_->velocity != Vector::Zero();
+    return prescribed_motion().any();
 }
 
 bool Plate::moves_with(const Plate &other) const {
+    if (spec_ == other.spec_)
+        return true;
     if (loaded() || other.loaded() || by_table() != other.by_table())
         return false;
     if (by_table()) {
         const MotionTable &own = spec_->table, &others = other.spec_->table;
-        return own.t == others.t && own.x == others.x && own.y == others.y;
+        return own.t == others.t && own.x == others.x && own.y == others.y && own.angle == others.angle &&
+               (own.angle.empty() || spec_->pivot == other.spec_->pivot);
     }
-    return (driven_ ? driven_velocity_ : spec_->velocity) ==
-           (other.driven_ ? other.driven_velocity_ : other.spec_->velocity);
+    const Motion motion = prescribed_motion();
+    return motion == other.prescribed_motion() && (motion.omega == 0 || pivot() == other.pivot());
 }
 
 void Plate::wrap(const Period &period, double time) {
-    const Segment &s = spec_->segment;
-    wrapped_ = period.shift_of(s.origin.x() + 0.5 * s.length * s.tangent.x() + displacement(time).x());
+    state_.wrapped = period.shift_of(Placing(pose(time), spec_->pivot).of(spec_->middle).x());
 }
 
 void Plate::place(double time, double dt) {
-    placed_ = spec_->segment.moved(displacement(time) - Vector(wrapped_, 0));
-    if (driven_)
-        velocity_ = driven_velocity_;
-    else if (spec_->table.empty())
-        velocity_ = spec_->velocity;
-    else if (dt > 0)
-        velocity_ = (spec_->table.displacement(time + dt) - spec_->table.displacement(time)) / dt;
-    else // placed anew between steps, before the first one: as it was
+    State &s = state_;
+    s.placed = pose(time);
+    s.placed.shift -= Vector(s.wrapped, 0);
+    if (s.driven || spec_->table.empty())
+        s.motion = prescribed_motion();
+    else if (dt > 0) {
+        const Pose now = prescribed_pose(time), then = prescribed_pose(time + dt);
+        s.motion = {(then.shift - now.shift) / dt, (then.angle - now.angle) / dt};
+    } else // placed anew between steps, before the first one: as it was
         return;
-    velocity_ += fall_speed_ * spec_->segment.normal;
+    s.motion.velocity += s.fall_speed * spec_->back_normal;
 }
 
-Plate::Motion Plate::motion() const {
-    return {driven_,     driven_since_, driven_from_,   driven_velocity_, fallen_,
-            fall_speed_, wrapped_,      placed_.origin, velocity_};
-}
-
-void Plate::set_motion(const Motion &motion) {
-    driven_ = motion.driven;
-    driven_since_ = motion.driven_since;
-    driven_from_ = motion.driven_from;
-    driven_velocity_ = motion.driven_velocity;
-    fallen_ = motion.fallen;
-    fall_speed_ = motion.fall_speed;
-    wrapped_ = motion.wrapped;
-    placed_.origin = motion.origin;
-    velocity_ = motion.velocity;
+double Plate::fastest() const {
+    const double belt = std::abs(spec_->surface_velocity);
+    const double speed = state_.motion.velocity.norm();
+    return state_.motion.omega == 0 ? speed + belt : speed + belt + std::abs(state_.motion.omega) * spec_->farthest;
 }
 
 } // namespace gp

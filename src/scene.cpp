@@ -18,6 +18,9 @@ void check_config(const gp_config &c) {
     require_finite("gp_config.gravity_x", c.gravity_x);
     require_finite("gp_config.gravity_y", c.gravity_y);
     require_not_negative("gp_config.sound_speed", c.sound_speed);
+    // Its square, over which densities are, is a number.
+    require(c.sound_speed == 0 || c.sound_speed >= 1e-9, "gp_config.sound_speed", c.sound_speed,
+            "0 or a number of at least 1e-9 m/s");
     if (c.cfl != 0)
         require_between("gp_config.cfl", c.cfl, 1e-6, 2);
     require_not_negative("gp_config.time_step", c.time_step);
@@ -99,17 +102,6 @@ Scheme scheme_of(const gp_config &c) {
 
 namespace {
 
-// Positions beyond this many spacings from the origin no longer resolve the spacing well (to 2e-4 of it).
-constexpr double farthest = 1e12; // dl
-
-void require_position(const char *name, double value, double spacing) {
-    require_finite(name, value);
-    const double limit = farthest * spacing;
-    if (!(std::abs(value) <= limit))
-        throw make_error(GP_E_ARGUMENT, "%s = %g: expected a number from %g to %g m, 1e12 spacings", name, value,
-                         -limit, limit);
-}
-
 // A reproducible number in [-1, 1) from a seed and a counter (the SplitMix64 finaliser).
 double hashed_uniform(uint64_t seed, uint64_t counter) {
     uint64_t z = seed + 0x9E3779B97F4A7C15u * (counter + 1);
@@ -121,20 +113,30 @@ double hashed_uniform(uint64_t seed, uint64_t counter) {
 
 } // namespace
 
-Vector MotionTable::displacement(double time) const {
-    if (time <= t.front())
-        return {x.front(), y.front()};
-    if (time >= t.back())
-        return {x.back(), y.back()};
-    const auto next = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
-    const double part = (time - t[next - 1]) / (t[next] - t[next - 1]);
-    return {x[next - 1] + part * (x[next] - x[next - 1]), y[next - 1] + part * (y[next] - y[next - 1])};
-}
-
 Scene::Scene(const gp_config &config) : config_(config) {
     check_config(config_);
     materials_.push_back(default_material());
 }
+
+namespace {
+
+// Is the stress with which columns of this material begin inside the yield surface?
+void check_k0(const gp_material &m, const gp_config &config) {
+    if (m.k0 == 0)
+        return;
+    require(scheme_of(config) == Scheme::adjoint, "gp_material.k0", m.k0,
+            "0: only columns of GP_STRESS_ELASTIC begin with a deviator");
+    const double mu = config.friction_factor * m.mu_s;
+    const double least = mu < 1 ? (1 - mu) / (1 + mu) : 0, most = mu < 1 ? (1 + mu) / (1 - mu) : INFINITY;
+    if (!(m.k0 > 0 && std::isfinite(m.k0) && m.k0 >= least * (1 - 1e-12) && m.k0 <= most * (1 + 1e-12)))
+        throw make_error(
+            GP_E_ARGUMENT,
+            "gp_material.k0 = %g: expected 0 or a number from %g to %g, within the yield of friction_factor "
+            "mu_s = %g",
+            m.k0, least, most, mu);
+}
+
+} // namespace
 
 int32_t Scene::add_material(const gp_material &m) {
     require_positive("gp_material.grain_density", m.grain_density);
@@ -146,6 +148,7 @@ int32_t Scene::add_material(const gp_material &m) {
     if (m.mu_2 < m.mu_s)
         throw make_error(GP_E_ARGUMENT, "gp_material.mu_2 = %g: expected a number >= mu_s = %g", m.mu_2, m.mu_s);
     require_positive("gp_material.i0", m.i0);
+    check_k0(m, config_);
     materials_.push_back(m);
     return static_cast<int32_t>(materials_.size()) - 1;
 }
@@ -262,93 +265,9 @@ int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, cons
     return column_id;
 }
 
-int32_t Scene::add_plate(const gp_plate &p) {
-    require_position("gp_plate.x0", p.x0, config_.spacing);
-    require_position("gp_plate.y0", p.y0, config_.spacing);
-    require_position("gp_plate.x1", p.x1, config_.spacing);
-    require_position("gp_plate.y1", p.y1, config_.spacing);
-    const double length = std::hypot(p.x1 - p.x0, p.y1 - p.y0);
-    require(std::isfinite(length) && length > 1e-6 * config_.spacing, "gp_plate length", length,
-            "two ends that differ by more than 1e-6 of the spacing");
-    require(length / config_.spacing < 1e8, "gp_plate length", length, "less than 1e8 spacings");
-    if (const Period period = this->period(); period && std::abs(p.x1 - p.x0) > period.length * (1 + 1e-6))
-        throw make_error(GP_E_ARGUMENT,
-                         "gp_plate from x = %g to %g m: expected an extent in x of at most the period, %g m", p.x0,
-                         p.x1, period.length);
-    require_choice("gp_plate.friction", p.friction, 3);
-    require_not_negative("gp_plate.wall_mu", p.wall_mu);
-    require(p.wall_mu == 0 || p.friction == GP_WALL_COULOMB, "gp_plate.wall_mu", p.wall_mu,
-            "0 unless friction is GP_WALL_COULOMB");
-    require_finite("gp_plate.vx", p.vx);
-    require_finite("gp_plate.vy", p.vy);
-    if (p.n_knots < 0)
-        throw make_error(GP_E_ARGUMENT, "gp_plate.n_knots = %lld: expected a whole number >= 0",
-                         static_cast<long long>(p.n_knots));
-    require_not_negative("gp_plate.normal_pressure", p.normal_pressure);
-    require_not_negative("gp_plate.mass_per_length", p.mass_per_length);
-    require(p.mass_per_length == 0 || p.normal_pressure > 0, "gp_plate.mass_per_length", p.mass_per_length,
-            "0 as long as normal_pressure is 0");
-
-    PlateSpec spec{Segment(p.x0, p.y0, p.x1, p.y1),
-                   {p.x1, p.y1},
-                   p.friction,
-                   p.wall_mu,
-                   {p.vx, p.vy},
-                   {},
-                   Vector::Zero(),
-                   p.normal_pressure,
-                   p.mass_per_length};
-    if (p.normal_pressure > 0) {
-        if (p.n_knots > 0)
-            throw make_error(GP_E_ARGUMENT, "gp_plate.n_knots = %lld: expected 0 for a plate with normal_pressure",
-                             static_cast<long long>(p.n_knots));
-        require_tangential(spec, {p.vx, p.vy}, "gp_plate");
-    }
-    if (p.n_knots > 0) {
-        require(p.vx == 0 && p.vy == 0, p.vx != 0 ? "gp_plate.vx" : "gp_plate.vy", p.vx != 0 ? p.vx : p.vy,
-                "0 when the plate has a displacement table");
-        require_pointer("gp_plate.knot_t", p.knot_t);
-        require_pointer("gp_plate.knot_x", p.knot_x);
-        require_pointer("gp_plate.knot_y", p.knot_y);
-        for (int64_t k = 0; k < p.n_knots; ++k) {
-            const auto at = static_cast<long long>(k);
-            require_finite(format_text("gp_plate.knot_t[%lld]", at).c_str(), p.knot_t[k]);
-            require_finite(format_text("gp_plate.knot_x[%lld]", at).c_str(), p.knot_x[k]);
-            require_finite(format_text("gp_plate.knot_y[%lld]", at).c_str(), p.knot_y[k]);
-            if (k > 0 && p.knot_t[k] <= p.knot_t[k - 1])
-                throw make_error(GP_E_ARGUMENT, "gp_plate.knot_t[%lld] = %g: expected more than the knot before, %g",
-                                 at, p.knot_t[k], p.knot_t[k - 1]);
-        }
-        spec.table.t.assign(p.knot_t, p.knot_t + p.n_knots);
-        spec.table.x.assign(p.knot_x, p.knot_x + p.n_knots);
-        spec.table.y.assign(p.knot_y, p.knot_y + p.n_knots);
-    }
-    plates_.push_back(std::move(spec));
-    return static_cast<int32_t>(plates_.size()) - 1;
-}
-
-void require_tangential(const PlateSpec &plate, const Vector &velocity, const char *name) {
-    const double normal = plate.segment.normal.dot(velocity);
-    if (plate.load > 0 && std::abs(normal) > 1e-12 * velocity.norm())
-        throw make_error(
-            GP_E_ARGUMENT,
-            "%s velocity = (%g, %g), %g along the normal: expected 0 along the normal of a plate that moves "
-            "there under its load",
-            name, velocity.x(), velocity.y(), normal);
-}
-
-void Scene::set_plate_start(int32_t plate, const Vector &start) {
-    require_finite("start x", start.x());
-    require_finite("start y", start.y());
-    plates_[plate].start = start;
-}
-
-void Scene::drive_plate(int32_t plate, const Vector &velocity) {
-    PlateSpec &spec = plates_[plate];
-    if (!spec.table.empty())
-        spec.start = spec.table.displacement(0);
-    spec.velocity = velocity;
-    spec.table = {};
+void Scene::set_gravity(const Vector &gravity) {
+    config_.gravity_x = gravity.x();
+    config_.gravity_y = gravity.y();
 }
 
 } // namespace gp

@@ -30,6 +30,7 @@ gp_config default_config(int32_t preset) {
     config.bulk_viscosity = 0.1;
     config.implicit_tolerance = 1e-5;
     config.implicit_iterations = 100;
+    config.threads = 1;
     if (preset != GP_PRESET_DEFAULT) {
         config.density_diffusion = 0;
         config.bulk_viscosity = 0;
@@ -51,6 +52,7 @@ gp_material default_material() {
     material.mu_s = std::tan(21 * degree);
     material.mu_2 = std::tan(32 * degree);
     material.i0 = 0.3;
+    material.k0 = 0;
     return material;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plate_chains.hpp"
+#include "facet_chains.hpp"
 #include "segment_cells.hpp"
 
 namespace gp {
@@ -21,8 +21,8 @@ constexpr double penetration_allowed = 0.25; // dl
 // The chain's plates that turn by less than a right angle from the ghost's own are its own side, through any of which it is
 // seen; those that face otherwise (the far side of a thin body) hide it like another chain's.
 struct Sight {
-    const std::vector<PlateImage> &images;
-    const PlateChains &chains;
+    const std::vector<FacetImage> &images;
+    const FacetChains &chains;
     double radius, spacing;
     int32_t *about; // room for the plates about a ghost: of its own side from the front on, others from the back on
     int64_t room;
@@ -32,7 +32,7 @@ struct Sight {
     double tolerance() const { return 1e-9 * spacing; }
     // Where the way passes an image of its own side. Ends that meet within the joint's tolerance leave no slit.
     double passing(int32_t image, const Vector &from, const Vector &at) const {
-        const PlateChains::Link &link = chains.link(images[image].plate);
+        const FacetChains::Link &link = chains.link(images[image].facet);
         const double meet = joint * spacing;
         return crossing(images[image].segment, from, at, link.before < 0 ? tolerance() : meet,
                         link.after < 0 ? tolerance() : meet);

@@ -217,19 +217,39 @@ int32_t Sim::add_plate(const gp_plate &plate) {
     return id;
 }
 
-void Sim::set_plate_velocity(int32_t plate, double vx, double vy) {
+void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
     require_choice("plate", plate, static_cast<int64_t>(scene_.plates().size()));
     require_finite("vx", vx);
     require_finite("vy", vy);
-    require_tangential(scene_.plates()[plate], {vx, vy}, "plate");
+    require_finite("omega", omega);
+    const Motion motion{{vx, vy}, omega};
+    require_tangential(scene_.plates()[plate], motion, "plate");
+    scene_.require_room_to_turn(scene_.plates()[plate], motion, "plate");
     if (started_) {
         Plate &driven = world_->walls.plates[plate];
-        driven.drive(world_->clock.time, {vx, vy});
+        driven.drive(world_->clock.time, motion);
         if (driven.gap <= 0) // the lists and the step's size count on the span from the next step on
-            world_->velocity_span = std::max(world_->velocity_span, driven.velocity().norm() + world_->fastest);
+            world_->velocity_span = std::max(world_->velocity_span, driven.fastest() + world_->fastest);
         ++epoch_;
     } else {
-        scene_.drive_plate(plate, {vx, vy});
+        scene_.drive_plate(plate, motion);
+        scene_changed();
+    }
+}
+
+void Sim::set_gravity(double gx, double gy) {
+    require_finite("gx", gx);
+    require_finite("gy", gy);
+    const Vector gravity(gx, gy);
+    if (started_) {
+        if (gravity == world_->constants.gravity)
+            return;
+        change_gravity(*world_, gravity);
+        ++epoch_;
+        if (log_)
+            warn(warnings_.of_gravity(*world_));
+    } else {
+        scene_.set_gravity(gravity);
         scene_changed();
     }
 }
@@ -288,6 +308,8 @@ void Sim::require_steppable() const {
     check_demanded_step();
     if (world_->clock.step == 0)
         stages::require_moderate_flow(*world_);
+    if (const std::string note = warnings_.note_of_scene(*world_); !note.empty())
+        log(GP_LOG_INFO, note);
     warn(self.warnings_.of_scene(*world_));
     self.started_ = true;
 }

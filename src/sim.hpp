@@ -40,7 +40,8 @@ public:
     int32_t add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                           const double *vy);
     int32_t add_plate(const gp_plate &plate);
-    void set_plate_velocity(int32_t plate, double vx, double vy);
+    void set_plate_motion(int32_t plate, double vx, double vy, double omega);
+    void set_gravity(double gx, double gy);
 
     gp_status step(gp_sim *handle, int64_t n);
     gp_status run(gp_sim *handle, double t_end);
@@ -56,7 +57,9 @@ public:
     Progress progress() const;
     // Goes on from a checkpoint: world is that of this scene, NULL before the first step.
     void resume(std::unique_ptr<World> world, const Progress &progress);
-    void set_plate_start(int32_t plate, const Vector &start) { scene_.set_plate_start(plate, start); }
+    void set_plate_start(int32_t plate, const Vector &start, double angle) {
+        scene_.set_plate_start(plate, start, angle);
+    }
     const Scene &scene() const { return scene_; }
     const World &world() const { return *world_; }
     // Without preparing anything.

@@ -13,10 +13,10 @@ int64_t Walls::count_overlapping(const Particles &particles, double margin) cons
     int64_t found = 0;
     for (int64_t i = 0; i < particles.count; ++i) {
         const Vector at(particles.x[i], particles.y[i]);
-        found += std::any_of(plates.begin(), plates.end(), [&](const Plate &plate) {
-            const Vector image = nearest_image(plate, at);
-            return std::abs(plate.segment().distance(image)) < margin &&
-                   plate.segment().covers(plate.segment().along(image), 0);
+        found += std::any_of(facets.begin(), facets.end(), [&](const Facet &facet) {
+            const Segment &s = facet.segment;
+            const Vector image = nearest_image(s, at);
+            return std::abs(s.distance(image)) < margin && s.covers(s.along(image), 0);
         });
     }
     return found;
@@ -24,15 +24,16 @@ int64_t Walls::count_overlapping(const Particles &particles, double margin) cons
 
 int64_t Walls::bytes() const {
     int64_t total = particles_of_ghost.bytes() + chains_.bytes() + cells_.bytes();
-    for (const Field<double> *field : {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_distance, &ghost_shift,
-                                       &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
+    for (const Field<double> *field :
+         {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_lean, &ghost_distance, &ghost_shift, &ghost_x,
+          &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         total += static_cast<int64_t>(field->capacity() * sizeof(double));
-    for (const Field<int32_t> *field : {&ghost_plate, &ghost_chain, &wall_particle, &ghost_of_contact, &contact_start,
+    for (const Field<int32_t> *field : {&ghost_facet, &ghost_chain, &wall_particle, &ghost_of_contact, &contact_start,
                                         &fill_, &seeing_, &passed_, &about_, &passed_of_contact_})
         total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
     return total +
            static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
-                                places_.capacity() * sizeof(WallPlace) + images_.capacity() * sizeof(PlateImage));
+                                places_.capacity() * sizeof(WallPlace) + images_.capacity() * sizeof(FacetImage));
 }
 
 namespace {
@@ -45,14 +46,59 @@ Box box_around(const Segment &s, double margin) {
 
 } // namespace
 
-// A plate, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long
+void Walls::make_facets(const Scene &scene) {
+    facets.clear();
+    for (std::size_t p = 0; p < scene.plates().size(); ++p) {
+        const PlateSpec &spec = scene.plates()[p];
+        for (std::size_t k = 0; k < spec.segments.size(); ++k)
+            facets.push_back({&spec, static_cast<int32_t>(p), static_cast<int32_t>(k), spec.segments[k]});
+    }
+}
+
+void Walls::place_facets() {
+    auto facet = facets.begin();
+    for (const Plate &plate : plates) {
+        const Placing placing = plate.placing();
+        for (const Segment &segment : plate.spec().segments)
+            (facet++)->segment = placing.of(segment);
+    }
+}
+
+void Walls::place_plates(double time, double dt) {
+    auto facet = facets.begin();
+    for (Plate &plate : plates) {
+        const Pose before = plate.placed();
+        plate.place(time, dt);
+        const std::vector<Segment> &segments = plate.spec().segments;
+        if (plate.placed() == before) {
+            facet += static_cast<std::ptrdiff_t>(segments.size());
+            continue;
+        }
+        const Placing placing = plate.placing();
+        for (const Segment &segment : segments)
+            (facet++)->segment = placing.of(segment);
+    }
+}
+
+void Walls::add_load(int32_t facet, const Vector &at, const Vector &force) {
+    const Facet &f = facets[facet];
+    Plate &plate = plates[f.plate];
+    const auto moment = [&](const Vector &arm) { return arm.x() * force.y() - arm.y() * force.x(); };
+    const Segment &s = f.segment, &first = facets[facet - f.number].segment;
+    const Vector image = nearest_image(s, at);
+    plate.force += force;
+    plate.torque += s.along(image) * moment(s.tangent) + moment(s.origin - first.origin);
+    plate.torque_pivot += moment(image - plate.pivot());
+}
+
+// A facet, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long
 // segment, that begins a period before its end 0.
-const std::vector<PlateImage> &Walls::images_of_plates() {
-    std::vector<PlateImage> &all = images_;
+const std::vector<FacetImage> &Walls::images_of_facets() {
+    std::vector<FacetImage> &all = images_;
     all.clear();
-    for (std::size_t p = 0; p < plates.size(); ++p) {
-        const Segment &s = plates[p].segment();
-        const auto id = static_cast<int32_t>(p);
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const Segment &s = facets[f].segment;
+        const auto id = static_cast<int32_t>(f);
         if (!period) {
             all.push_back({s, id, 0, 0, false});
         } else if (period.spanned_by(s)) {
@@ -70,7 +116,7 @@ const std::vector<PlateImage> &Walls::images_of_plates() {
 const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
     std::vector<Segment> &found = barriers_.segments;
     found.clear();
-    for (const PlateImage &image : images_of_plates()) {
+    for (const FacetImage &image : images_of_facets()) {
         const Segment &s = image.segment;
         const Box box = box_around(s, radius);
         if (particles.count == 0 || box.gap(grid.box()) > 0)
@@ -96,16 +142,17 @@ void Walls::find_near(const Particles &particles, const CellGrid &grid, double r
         return;
     for (Plate &plate : plates)
         plate.gap = INFINITY;
-    for (PlateImage &image : images_) {
+    for (FacetImage &image : images_) {
         const double gap = box_around(image.segment, radius).gap(grid.box());
-        plates[image.plate].gap = std::min(plates[image.plate].gap, gap);
+        Plate &plate = plates[facets[image.facet].plate];
+        plate.gap = std::min(plate.gap, gap);
         image.near = gap <= 0;
     }
 }
 
 void Walls::place_candidates(const CellGrid &grid, double radius, double spacing) {
     places_.clear();
-    for (const PlateChains::Chain &chain : chains_.all())
+    for (const FacetChains::Chain &chain : chains_.all())
         chains_.add_places(chain, images_, grid.box(), radius, spacing, places_);
     candidates_.clear();
     for (const WallPlace &place : places_)
@@ -160,7 +207,7 @@ void Walls::find_seeing(const Particles &particles, const CellGrid &grid, const 
                     return;
                 const int64_t entry = ghost.first + ghost.neighbors++;
                 seeing_[entry] = static_cast<int32_t>(i);
-                passed_[entry] = images_[image].plate;
+                passed_[entry] = images_[image].facet;
                 ghost.seen |= i < particles.count;
             });
         }
@@ -173,19 +220,19 @@ void Walls::keep_seen() {
                                      [](const Candidate &candidate) { return !candidate.seen; }),
                       candidates_.end());
     ghost_count = static_cast<int64_t>(candidates_.size());
-    ghost_plate.resize(ghost_count);
+    ghost_facet.resize(ghost_count);
     ghost_chain.resize(ghost_count);
     if (period)
         ghost_shift.resize(ghost_count);
-    for (Field<double> *field : {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_distance, &ghost_x, &ghost_y,
-                                 &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
+    for (Field<double> *field : {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_lean, &ghost_distance,
+                                 &ghost_x, &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         field->resize(ghost_count);
     particles_of_ghost.start.resize(ghost_count + 1);
     particles_of_ghost.start[0] = 0;
     for (int64_t k = 0; k < ghost_count; ++k) {
         const WallPlace &place = candidates_[k].place;
-        const PlateImage &image = images_[place.image];
-        ghost_plate[k] = image.plate;
+        const FacetImage &image = images_[place.image];
+        ghost_facet[k] = image.facet;
         ghost_chain[k] = chains_.chain_of(place.image).number;
         if (period)
             ghost_shift[k] = image.shift;
@@ -193,6 +240,7 @@ void Walls::keep_seen() {
         ghost_depth[k] = place.depth;
         ghost_nx[k] = place.nx;
         ghost_ny[k] = place.ny;
+        ghost_lean[k] = place.lean;
         ghost_distance[k] = place.distance;
         ghost_x[k] = place.x;
         ghost_y[k] = place.y;
@@ -236,17 +284,17 @@ void Walls::make_contacts(const Particles &particles) {
     contact_start[n] = static_cast<int32_t>(contacts.size());
 }
 
-// A particle's contacts with one chain: one for what it sees through plates that turn by less than a right angle, which is all
+// A particle's contacts with one chain: one for what it sees through facets that turn by less than a right angle, which is all
 // but in a narrow groove.
 void Walls::add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end) {
     while (begin < end) {
         int32_t stop = end;
         const int32_t passed = passed_of_contact_[begin];
         if (chains_.joined(passed)) {
-            const Vector &tangent = plates[passed].segment().tangent;
+            const Vector &tangent = facets[passed].segment.tangent;
             stop = begin;
             for (int32_t k = begin; k < end; ++k)
-                if (tangent.dot(plates[passed_of_contact_[k]].segment().tangent) > 0) {
+                if (tangent.dot(facets[passed_of_contact_[k]].segment.tangent) > 0) {
                     std::rotate(ghost_of_contact.begin() + stop, ghost_of_contact.begin() + k,
                                 ghost_of_contact.begin() + k + 1);
                     std::rotate(passed_of_contact_.begin() + stop, passed_of_contact_.begin() + k,
@@ -254,18 +302,18 @@ void Walls::add_contacts(const Particles &particles, int64_t i, int32_t begin, i
                     ++stop;
                 }
         }
-        const int32_t plate = facing(passed, Vector(particles.x[i], particles.y[i]));
+        const int32_t facet = facing(passed, Vector(particles.x[i], particles.y[i]));
         contacts.push_back(
-            {static_cast<int32_t>(i), plate, plate, ghost_chain[ghost_of_contact[begin]], begin, stop, 0, 0, 0, 0});
+            {static_cast<int32_t>(i), facet, facet, ghost_chain[ghost_of_contact[begin]], begin, stop, 0, 0, 0, 0});
         begin = stop;
     }
 }
 
 void Walls::find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
                           double reach, double spacing, bool may_join, int threads) {
-    images_of_plates();
+    images_of_facets();
     find_near(particles, grid, radius);
-    chains_.find(plates, images_, reach, spacing, may_join);
+    chains_.find(plates, facets, images_, reach, spacing, may_join);
     place_candidates(grid, radius, spacing);
     cells_.sort(
         static_cast<int64_t>(images_.size()),
@@ -276,28 +324,30 @@ void Walls::find_contacts(const Particles &particles, const CellGrid &grid, cons
     make_contacts(particles);
 }
 
-// The plate of the chain that is nearest to a place, going from one to the next.
-int32_t Walls::facing(int32_t plate, const Vector &at) const {
-    while (chains_.joined(plate)) {
-        const Segment &s = plates[plate].segment();
-        const Vector image = nearest_image(plates[plate], at);
-        const PlateChains::Link &link = chains_.link(plate);
+// The facet of the chain that is nearest to a place, going from one to the next.
+int32_t Walls::facing(int32_t facet, const Vector &at) const {
+    while (chains_.joined(facet)) {
+        const Segment &s = facets[facet].segment;
+        const Vector image = nearest_image(s, at);
+        const FacetChains::Link &link = chains_.link(facet);
         const int32_t other = s.along(image) < 0.5 * s.length ? link.before : link.after;
-        if (other < 0 ||
-            plates[other].segment().nearest_square(nearest_image(plates[other], at)) >= s.nearest_square(image))
+        if (other < 0)
             break;
-        plate = other;
+        const Segment &next = facets[other].segment;
+        if (next.nearest_square(nearest_image(next, at)) >= s.nearest_square(image))
+            break;
+        facet = other;
     }
-    return plate;
+    return facet;
 }
 
 // From where it was when the lists were made, so that a run that goes on from a checkpoint finds the same.
-void Walls::face_plates(const Particles &particles) {
+void Walls::face_facets(const Particles &particles) {
     if (!chains_.any())
         return;
     for (Contact &contact : contacts)
-        contact.plate =
-            facing(contact.listed_plate, Vector(particles.x[contact.particle], particles.y[contact.particle]));
+        contact.facet =
+            facing(contact.listed_facet, Vector(particles.x[contact.particle], particles.y[contact.particle]));
 }
 
 int64_t Walls::contact_of(int64_t i, int64_t ghost) const {
@@ -306,7 +356,7 @@ int64_t Walls::contact_of(int64_t i, int64_t ghost) const {
     for (int32_t c = contact_start[i]; c < contact_start[i + 1]; ++c) {
         if (contacts[c].chain != ghost_chain[ghost])
             continue;
-        const Vector &n = plates[contacts[c].listed_plate].segment().normal;
+        const Vector &n = facets[contacts[c].listed_facet].segment.normal;
         if (const double alike = n.x() * ghost_nx[ghost] + n.y() * ghost_ny[ghost]; alike > most) {
             most = alike;
             found = c;
@@ -317,14 +367,14 @@ int64_t Walls::contact_of(int64_t i, int64_t ghost) const {
 
 void Walls::find_wall_particles(double spacing) {
     wall_particle.resize(ghost_count);
-    // Ghosts are in order of plate, layer and place along the plate.
-    int64_t first = 0, last = 0; // wall particles of this plate
+    // Ghosts are in order of facet, layer and place along the facet.
+    int64_t first = 0, last = 0; // wall particles of this facet
     for (int64_t k = 0; k < ghost_count; ++k) {
-        const bool new_plate = k == 0 || ghost_plate[k] != ghost_plate[k - 1];
-        if (new_plate) {
-            const double length = plates[ghost_plate[k]].segment().length;
+        const bool new_facet = k == 0 || ghost_facet[k] != ghost_facet[k - 1];
+        if (new_facet) {
+            const double length = facets[ghost_facet[k]].segment.length;
             const auto usable = [&](int64_t g) {
-                return g < ghost_count && ghost_plate[g] == ghost_plate[k] && ghost_depth[g] < spacing;
+                return g < ghost_count && ghost_facet[g] == ghost_facet[k] && ghost_depth[g] < spacing;
             };
             first = k;
             while (usable(first) && ghost_along[first] < 0)
@@ -348,10 +398,15 @@ void Walls::find_wall_particles(double spacing) {
 void Walls::place_ghosts(int threads) {
     for_each_block<ghost_block_size>(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
-            const Segment &s = plates[ghost_plate[k]].segment();
+            const Segment &s = facets[ghost_facet[k]].segment;
             const Vector at = s.origin + ghost_along[k] * s.tangent - ghost_depth[k] * s.normal;
             ghost_x[k] = at.x() + (ghost_shift.empty() ? 0.0 : ghost_shift[k]);
             ghost_y[k] = at.y();
+            if (plate_of(ghost_facet[k]).may_turn()) {
+                const double lean = ghost_lean[k], across = std::sqrt(1 - lean * lean);
+                ghost_nx[k] = across * s.normal.x() + lean * s.tangent.x();
+                ghost_ny[k] = across * s.normal.y() + lean * s.tangent.y();
+            }
         }
     });
 }

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "clusters.hpp"
+#include "facet_chains.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "plate.hpp"
-#include "plate_chains.hpp"
 #include "segment_cells.hpp"
 
 namespace gp {
@@ -22,11 +22,11 @@ namespace gp {
 // first layer of ghosts, half a spacing behind the surface.
 constexpr double contact_distance = 0.4; // dl
 
-// The ghosts that a particle sees of one side of a chain of plates, and the plate of it that the particle is in front of:
+// The ghosts that a particle sees of one side of a chain of facets, and the facet of it that the particle is in front of:
 // what pushes it, rubs it and bears its load. In a narrow groove a particle has contacts with both sides.
 struct Contact {
     int32_t particle;
-    int32_t plate, listed_plate; // in front of which it is in this step, and was when the lists were made
+    int32_t facet, listed_facet; // in front of which it is in this step, and was when the lists were made
     int32_t chain;               // its number
     int64_t begin, end;          // in Walls::ghost_of_contact
     double force_x, force_y;     // N/m3: force density on the particle
@@ -35,19 +35,22 @@ struct Contact {
     // 1/s: the velocity gradient that the particle's neighbours make without ghosts; kept by its first contact.
     double inner_xx = 0, inner_xy = 0, inner_yx = 0, inner_yy = 0;
     double held_normal = 0, held_tangential = 0; // m/s: by wall_support and wall_hold in this step
+    double couple = 0;                           // N/m2, a density as the force: on the particle beside it
 };
 
 struct Walls {
     std::vector<Plate> plates;
-    Period period; // of the scene
+    std::vector<Facet> facets; // of all plates, one plate after the other
+    Period period;             // of the scene
 
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
-    Field<int32_t> ghost_plate;   // the one in front of it
+    Field<int32_t> ghost_facet;   // the one in front of it
     Field<int32_t> ghost_chain;   // number
     Field<int32_t> wall_particle; // the ghost of the first layer whose state it takes; only in the paper's schemes
-    Field<double> ghost_along, ghost_depth;        // m, in the plate's frame: from end 0, and behind the wetted line
+    Field<double> ghost_along, ghost_depth;        // m, in the facet's frame: from end 0, and behind the wetted line
     Field<double> ghost_nx, ghost_ny;              // from the ghost to the wetted line of its chain, unit vector
+    Field<double> ghost_lean;                      // along the facet's tangent, of that vector
     Field<double> ghost_distance;                  // m, on that way; ghost_depth but where the line turns
     Field<double> ghost_shift;                     // m, 0 or a period up or down; periodic scenes only
     Field<double> ghost_x, ghost_y;                // m
@@ -59,10 +62,17 @@ struct Walls {
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
     std::vector<Contact> contacts;   // ordered by particle, then chain
 
-    // The image of a point that is nearest to a plate's middle.
-    Vector nearest_image(const Plate &plate, Vector point) const {
+    const Plate &plate_of(int32_t facet) const { return plates[facets[facet].plate]; }
+
+    // m/s, of a facet's surface at a place: of the body, and of the belt on it.
+    Vector velocity_at(int32_t facet, const Vector &at) const {
+        const Facet &f = facets[facet];
+        return plates[f.plate].velocity_at(nearest_image(f.segment, at)) + f.spec->surface_velocity * f.segment.tangent;
+    }
+
+    // The image of a point that is nearest to a facet's middle.
+    Vector nearest_image(const Segment &s, Vector point) const {
         if (period) {
-            const Segment &s = plate.segment();
             point.x() -=
                 period.length * std::round((point.x() - s.origin.x() - 0.5 * s.length * s.tangent.x()) / period.length);
         }
@@ -73,17 +83,18 @@ struct Walls {
     void clear_loads() {
         for (Plate &plate : plates) {
             plate.force = Vector::Zero();
-            plate.torque = 0;
+            plate.torque = plate.torque_pivot = 0;
         }
     }
 
-    // The material's force (N/m) on a plate, acting at a point.
-    void add_load(int32_t id, const Vector &at, const Vector &force) {
-        Plate &plate = plates[id];
-        const Vector &t = plate.segment().tangent;
-        plate.force += force;
-        plate.torque += plate.segment().along(nearest_image(plate, at)) * (t.x() * force.y() - t.y() * force.x());
-    }
+    // The material's force (N/m) on a facet of a plate, acting at a point.
+    void add_load(int32_t facet, const Vector &at, const Vector &force);
+
+    // The facets of all plates, where these are.
+    void make_facets(const Scene &scene);
+    void place_facets();
+    // Places the plates for the step from `time` on, and the facets of those that have moved.
+    void place_plates(double time, double dt);
 
     bool in_reach() const { return !contacts.empty(); }
     int64_t bytes() const;
@@ -99,15 +110,15 @@ struct Walls {
     // Do the plates that made a wall when the lists were made still move together?
     bool chains_stand() const { return chains_.stand(plates); }
 
-    // Turns each contact to the plate of its chain that the particle is in front of by now.
-    void face_plates(const Particles &particles);
+    // Turns each contact to the facet of its chain that the particle is in front of by now.
+    void face_facets(const Particles &particles);
 
-    // Is a place in front of the plate's surface, not past a free end of it? Past a joint, the next plate has it from the next
+    // Is a place in front of the facet's surface, not past a free end of it? Past a joint, the next facet has it from the next
     // step on.
-    bool faces(int32_t plate, const Vector &at) const {
-        const Segment &s = plates[plate].segment();
+    bool faces(int32_t facet, const Vector &at) const {
+        const Segment &s = facets[facet].segment;
         const double along = s.along(at);
-        const PlateChains::Link &link = chains_.link(plate);
+        const FacetChains::Link &link = chains_.link(facet);
         return (along >= 0 || link.before >= 0) && (along < s.length || link.after >= 0);
     }
 
@@ -124,7 +135,7 @@ struct Walls {
     int64_t count_overlapping(const Particles &particles, double margin) const;
 
 private:
-    const std::vector<PlateImage> &images_of_plates();
+    const std::vector<FacetImage> &images_of_facets();
     void find_near(const Particles &particles, const CellGrid &grid, double radius);
     void place_candidates(const CellGrid &grid, double radius, double spacing);
     void find_seeing(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
@@ -132,7 +143,7 @@ private:
     void keep_seen();
     void make_contacts(const Particles &particles);
     void add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end);
-    int32_t facing(int32_t plate, const Vector &at) const;
+    int32_t facing(int32_t facet, const Vector &at) const;
 
     struct Candidate {
         WallPlace place;
@@ -140,14 +151,14 @@ private:
         int64_t neighbors; // particles and images that see it
         bool seen;         // by a particle
     };
-    std::vector<PlateImage> images_; // plates, and in a periodic scene their images
-    PlateChains chains_;
+    std::vector<FacetImage> images_; // facets, and in a periodic scene their images
+    FacetChains chains_;
     SegmentCells cells_;
     Barriers barriers_;
     std::vector<WallPlace> places_;
     std::vector<Candidate> candidates_;
     Field<int32_t> seeing_, passed_; // who sees a candidate, and the plate that the way passes
-    Field<int32_t> about_;           // plates about a ghost, for each block of ghosts
+    Field<int32_t> about_;           // facets about a ghost, for each block of ghosts
     Field<int32_t> fill_, passed_of_contact_;
 };
 

@@ -39,10 +39,10 @@ std::unique_ptr<World> make_world(const Scene &scene) {
     if (scene.config().collision_distance > 0)
         world->colliding.resize(p.count);
     world->walls.period = c.period;
-    for (const PlateSpec &spec : scene.plates()) {
+    for (const PlateSpec &spec : scene.plates())
         world->walls.plates.emplace_back(spec);
-        world->walls.plates.back().place(0, c.spacing / c.wave_speed);
-    }
+    world->walls.make_facets(scene);
+    world->walls.place_plates(0, c.spacing / c.wave_speed);
     return world;
 }
 

@@ -65,7 +65,10 @@ module granperi_raw
         real(c_double) :: gravity_y !! m/s2 [-9.81]
         real(c_double) :: sound_speed
             !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
-            !! lowest point, by its initial and plate velocities [0]
+            !! lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest
+            !! blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a
+            !! plate or another column (not with GP_DENSITY_NUMBER, nor with a time_step). The log says so and what it
+            !! costs. Else at least 1e-9 [0]
         real(c_double) :: cfl
             !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
             !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
@@ -102,8 +105,8 @@ module granperi_raw
             !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
             !! whole number of spacings [0, 0]
         integer(c_int32_t) :: threads
-            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
-            !! for any number
+            !! threads that work on this simulation, the calling one among them; 0: OpenMP's default (all processors, or
+            !! OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any number
         integer(c_int64_t) :: seed !! of the jitter [0]
         real(c_double) :: jitter
             !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
@@ -133,6 +136,15 @@ module granperi_raw
         real(c_double) :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
         real(c_double) :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double) :: i0 !! I at which mu is half way between; > 0 [0.3]
+        real(c_double) :: k0
+            !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along
+            !! the direction in which a column presses; 0: isotropic, or none across as gp_column.initial_pressure says.
+            !! Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with m = friction_factor mu_s, any above 0 where m
+            !! >= 1. Else than 0 only with GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0
+            !! sigma_v, the base all of the weight. Below 1 it is also the ratio in which the stresses change where the
+            !! material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at least .1
+            !! (without k0 .3): it stays while walls take weight over, until the material yields; beside walls as rough
+            !! as itself it then tends to 1. Columns side by side are in balance if they have the same one [0]
     end type
 
     !> The stress with which a column begins.
@@ -172,8 +184,8 @@ module granperi_raw
         !! up to wall_mu times the normal traction, or what the material bears, if that is less
 
     !> Plates whose ends meet within 0.01 dl (end 1 of one, end 0 of the next), that move alike, bear no load and turn
-    !> by 50 degrees at most are one wall: the joint is not felt. The paper's schemes take each plate for a wall of its
-    !> own.
+    !> by 50 degrees at most are one wall, as the segments of one plate's line are: the joint is not felt. The paper's
+    !> schemes take each segment for a wall of its own.
     type, bind(c) :: gp_plate
         integer(c_int32_t) :: struct_size = 0
         real(c_double) :: x0
@@ -207,11 +219,34 @@ module granperi_raw
         real(c_double) :: normal_pressure
             !! Pa, a load on the plate's back: the plate moves along its normal as a rigid body under this load and the
             !! material's reaction (its own weight is part of the load), and along its tangent as prescribed: vx, vy
-            !! then have no normal part, and there is no table. 0: all of the motion is prescribed [0]
+            !! then have no normal part, and there is no table and no turn. Of a line of several points the straight way
+            !! from the first to the last counts; a closed one bears no load. 0: all of the motion is prescribed [0]
         real(c_double) :: mass_per_length
             !! kg/m2, inertia of a loaded plate per length; only with normal_pressure. 0: light, as half a spacing of
             !! the heaviest material: it follows its load at once. A heavy plate rings on confined material, which damps
             !! its slow motion little [0]
+        integer(c_int64_t) :: n_points
+            !! 0: the plate is the segment from (x0, y0) to (x1, y1); 2 to 10 000 000: it is the line through that many
+            !! points, with x0 to y1 0: one wall, one friction, one motion, one load. Its segments are no shorter than a
+            !! tenth of the spacing, and it does not cross, touch or fold back on itself. No joint of it is felt, but
+            !! for corners of more than 50 degrees and bulges of more than that within a horizon [0]
+        type(c_ptr) :: point_x
+            !! m, shape (n_points); body on the left of the way. Last point = first point: a closed line, as a drum
+            !! (clockwise: material inside) or an obstacle (counter-clockwise) [NULL]
+        type(c_ptr) :: point_y !! m, shape (n_points) [NULL]
+        real(c_double) :: pivot_x
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double) :: pivot_y
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double) :: omega !! rad/s, constant rate of turning, counter-clockwise; not with a table or a load [0]
+        type(c_ptr) :: knot_angle
+            !! rad, shape (n_knots), counter-clockwise, as knot_x; knot_x and knot_y may then both be NULL, for none.
+            !! NULL: the table does not turn the plate [NULL]
+        real(c_double) :: surface_velocity
+            !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
+            !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
     end type
 
     integer(c_int32_t), parameter :: GP_LOG_INFO = 0
@@ -289,7 +324,9 @@ module granperi_raw
             !! Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals kinetic +
             !! potential + elastic + dissipated + plate_work + energy_error.
         real(c_double) :: kinetic
-        real(c_double) :: potential !! gravitational, zero at the lowest face of the initial material
+        real(c_double) :: potential
+            !! gravitational, zero at the lowest face of the initial material. gp_set_gravity leaves it as it is: from
+            !! there on it is less by what the new gravity has done, and may fall below 0
         real(c_double) :: elastic !! of compression and shear
         real(c_double) :: dissipated !! by friction, collisions, walls and the scheme itself
         real(c_double) :: plate_work !! done by the material on moving plates
@@ -323,11 +360,13 @@ module granperi_raw
             !! plastic power of the last step would dissipate less than 1e-4 of it in the scene's free-fall time, and no
             !! more than 1 % of the mass is accelerated by more than 0.05 g, on average over some 20 steps (single
             !! grains may tremble on a plate; of fewer than 200 particles two, but no more than 5 % of the mass). And no
-            !! plate has motion of its own left (a velocity, also of gp_set_plate_velocity, or knots that displace it
-            !! further) that is within the horizon of the box around all particles, or will come so near on its way, as
-            !! straight lines between here and the farthest places that it comes to have it; a plate under a load there
-            !! rests itself: its kinetic energy is below the same 1e-6, and the material bears its load within 5 %. The
-            !! energy scale is the largest of the initial energy of the ledger and the largest kinetic energy so far
+            !! plate has motion of its own left (a velocity or a turn, also of gp_set_plate_motion, a belt, or knots
+            !! that displace it further) that is within the horizon of the box around all particles, or will come so
+            !! near on its way, as straight lines between here and the farthest places that it comes to have it; a plate
+            !! under a load there rests itself: its kinetic energy is below the same 1e-6, and the material bears its
+            !! load within 5 %. The energy scale is the largest of the initial energy of the ledger and the largest
+            !! kinetic energy so far; after gp_set_gravity the energy then, with the potential from the lowest face of
+            !! the material on, and the largest kinetic energy since
         integer(c_int64_t) :: collisions !! colliding pairs so far ([1] 2.9), each step's counted anew
         real(c_double) :: wall_seconds !! s of wall-clock time inside the steps so far
         real(c_double) :: sound_speed !! m/s, c0 in use
@@ -380,17 +419,28 @@ module granperi_raw
             !! eighth of its outermost 1.25 dl), so free surfaces have no part in it; at the start all of these, of the
             !! lattice if there are none. 0 where nothing flows. Layers that keep their height stay within .01; what
             !! topples and spreads opens up, by some 0.5 dl / height. Above .02 gp_set_log warns
+        real(c_double) :: gravity_x !! m/s2, in force from here on
+        real(c_double) :: gravity_y !! m/s2, in force from here on
     end type
+
+    !> Parts of gp_state that take time to find.
+    integer(c_int32_t), parameter :: GP_STATE_DEPOSIT = 1 !! x_left, x_right, peak_x, peak_height, detached
+    integer(c_int32_t), parameter :: GP_STATE_MARKS = 2 !! x_q01 .. x_q99
+    integer(c_int32_t), parameter :: GP_STATE_DRIFT = 4 !! volume_drift
+    integer(c_int32_t), parameter :: GP_STATE_ALL = 7
 
     type, bind(c) :: gp_load
         integer(c_int32_t) :: struct_size = 0 !! set by the caller
         real(c_double) :: fx !! N/m, force of the material on the plate over the last step
         real(c_double) :: fy !! N/m, force of the material on the plate over the last step
-        real(c_double) :: torque !! N, its moment about the plate's end 0
-        real(c_double) :: dx !! m, displacement of the plate since the start
-        real(c_double) :: dy !! m, displacement of the plate since the start
+        real(c_double) :: torque !! N, its moment about the plate's first point, counter-clockwise
+        real(c_double) :: dx !! m, displacement of the plate, where it turns of its pivot, since the start
+        real(c_double) :: dy !! m, displacement of the plate, where it turns of its pivot, since the start
         real(c_double) :: impulse_x !! N s/m, integral of fx and fy over time since the start
         real(c_double) :: impulse_y !! N s/m, integral of fx and fy over time since the start
+        real(c_double) :: torque_pivot !! N, moment of the force about the plate's pivot, counter-clockwise
+        real(c_double) :: angle !! rad, by which it has turned since the start
+        real(c_double) :: impulse_torque !! N s, integral of torque_pivot over time since the start
     end type
 
     type, bind(c) :: gp_plan_entry
@@ -413,7 +463,9 @@ module granperi_raw
             !! GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written [position,
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t) :: compression !! deflate level, 0 .. 9 [4]
-        integer(c_int32_t) :: single_precision !! 1: floating-point fields as 32 bits; time stays 64 [0]
+        integer(c_int32_t) :: single_precision
+            !! 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are rounded to
+            !! 1e-5 spacings, wherever they are, which compresses as well as 32 bits
         integer(c_int64_t) :: append
             !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
     end type
@@ -575,6 +627,37 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> The same for any rigid motion: the plate's pivot moves at (vx, vy), m/s, and the plate turns about it at
+        !> omega, rad/s, counter-clockwise. gp_set_plate_velocity is this with omega 0. A loaded plate does not turn:
+        !> GP_E_ARGUMENT.
+        function gp_set_plate_motion(sim, plate, vx, vy, omega) bind(c, name="gp_set_plate_motion") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: plate
+            real(c_double), value :: vx
+            real(c_double), value :: vy
+            real(c_double), value :: omega
+            integer(c_int32_t) :: answer
+        end function
+
+        !> Gravity (m/s2) from now on, for a box that is tilted or shaken, in its own frame, or gravity that sets in or
+        !> ends. Finite. Possible at any time, also from a callback, with every scheme. Before the first step it
+        !> replaces gp_config.gravity_x and gravity_y: columns begin in balance with it and the sound speed is made for
+        !> it. After it - stresses and velocities are what they were: a jump makes elastic waves as a blow does. Turning
+        !> it by small angles, such as once per step or per 0.1 degrees, does not; - gp_state.potential goes on without
+        !> a jump, so that the energy ledger closes; - gp_state.at_rest is 0 for some 90 steps at least. Setting what it
+        !> is already changes nothing; - the sound speed stays: gp_set_log warns if the scene can now fall so fast that
+        !> it compresses by more than 3 %; then set gp_config.sound_speed, 0 is made for the first gravity alone. Costs
+        !> about a twentieth of a step. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x,
+        !> gravity_y).
+        function gp_set_gravity(sim, gx, gy) bind(c, name="gp_set_gravity") result(answer)
+            import
+            type(c_ptr), value :: sim
+            real(c_double), value :: gx
+            real(c_double), value :: gy
+            integer(c_int32_t) :: answer
+        end function
+
         !> Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts
         !> time. A step that GP_E_MEMORY stops is undone and may be taken again, to the same bits (the order of views
         !> may be new); after GP_E_IO or GP_E_MEMORY of an output that writes by itself, or of the log's texts, the step
@@ -586,9 +669,9 @@ module granperi_raw
         !> instead); - the flow asks for steps below 1/128 of spacing / wave speed: speeds differ by 32 wave speeds. At
         !> the first step this is GP_E_ARGUMENT: the sound_speed is wrong for the scene. It is found before anything
         !> moves, and the step is undone: fields, their order, clock, energies, plates and loads have the bits of the
-        !> last good step. But in a periodic scene particles that have just returned into the period stay there and the
-        !> order is new, GP_FIELD_NUMBER_DENSITY may differ by rounding, and gp_state.volume_drift by the ghosts that
-        !> are seen anew (by some .001). With gp_config.retry_halvings a step that diverges is undone and taken as two
+        !> last good step. But GP_FIELD_NUMBER_DENSITY may differ by rounding, gp_state.volume_drift by the ghosts that
+        !> are seen anew (by some .001), and in a periodic scene particles that have just returned into the period stay
+        !> there and the order is new. With gp_config.retry_halvings a step that diverges is undone and taken as two
         !> steps of half its size, one after the other, each of which is halved likewise if it diverges, up to that many
         !> times. Each of them is a whole step to the counter, the callback and the output, with GP_DT_RETRY in
         !> gp_state.dt_reason; what is undone nobody sees. After the two halves the size is chosen as always. Speeds
@@ -620,14 +703,20 @@ module granperi_raw
         end function
 
         !> log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per
-        !> simulation, with its figure and with what to change. At the first step: a sound_speed that nothing sets or
-        !> below the speeds that the scene can reach, particles within a quarter spacing of a plate's line, a column
-        !> thinner than 3 spacings, a time step beyond the stable limit. Later: a step taken anew, compression above 3 %
-        !> (not of the schemes of [1]), a plate in reach of material at more than 0.3 sound speeds, and, looked at every
-        !> 64 steps, a particle behind a plate, more than 10 % of the dissipation by the zero-energy penalty, an energy
+        !> simulation, with its figure and with what to change. At the first step: - a plate with material only on the
+        !> side of its body; material within a horizon and a spacing behind a plate that no other plate faces, or across
+        !> its line; - a column or set of particles more than half of which has nothing below it in the direction of
+        !> gravity, neither a plate that faces it nor a column that is borne; a scene without material; - a sound_speed
+        !> that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
+        !> plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the
+        !> stable limit. Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew,
+        !> compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in
+        !> reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
+        !> particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy
         !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
         !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
-        !> the schemes of [1]).
+        !> the schemes of [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves
+        !> its cost.
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim
@@ -656,10 +745,23 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step.
+        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second
+        !> call without a step between costs nothing.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
+            type(gp_state), intent(inout), optional :: state
+            integer(c_int32_t) :: answer
+        end function
+
+        !> The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger,
+        !> momentum, speeds, max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5
+        !> % of a time step, GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where
+        !> all flows.
+        function gp_get_state_parts(sim, parts, state) bind(c, name="gp_get_state_parts") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: parts
             type(gp_state), intent(inout), optional :: state
             integer(c_int32_t) :: answer
         end function

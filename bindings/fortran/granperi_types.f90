@@ -71,6 +71,10 @@ module granperi_types
     public :: GP_DT_DEMANDED
     public :: GP_DT_END
     public :: GP_DT_RETRY
+    public :: GP_STATE_DEPOSIT
+    public :: GP_STATE_MARKS
+    public :: GP_STATE_DRIFT
+    public :: GP_STATE_ALL
 
     !> What the library holds, not copied: read it, do not write it.
     type :: gp_particles
@@ -142,7 +146,10 @@ contains
         real(c_double), intent(in), optional :: gravity_y !! m/s2 [-9.81]
         real(c_double), intent(in), optional :: sound_speed
             !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
-            !! lowest point, by its initial and plate velocities [0]
+            !! lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest
+            !! blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a
+            !! plate or another column (not with GP_DENSITY_NUMBER, nor with a time_step). The log says so and what it
+            !! costs. Else at least 1e-9 [0]
         real(c_double), intent(in), optional :: cfl
             !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
             !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
@@ -182,8 +189,8 @@ contains
             !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
             !! whole number of spacings [0, 0]
         integer(c_int32_t), intent(in), optional :: threads
-            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
-            !! for any number
+            !! threads that work on this simulation, the calling one among them; 0: OpenMP's default (all processors, or
+            !! OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any number
         integer(c_int64_t), intent(in), optional :: seed !! of the jitter [0]
         real(c_double), intent(in), optional :: jitter
             !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
@@ -245,13 +252,22 @@ contains
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_material( &
-            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, status, message) result(made)
+            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, k0, status, message) result(made)
         real(c_double), intent(in), optional :: grain_density !! kg/m3, rho_s; > 0 [2500]
         real(c_double), intent(in), optional :: volume_fraction !! phi, so rho = phi rho_s; > 0, <= 1 [0.62]
         real(c_double), intent(in), optional :: grain_diameter !! m, d; > 0 [0.002]
         real(c_double), intent(in), optional :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
         real(c_double), intent(in), optional :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double), intent(in), optional :: i0 !! I at which mu is half way between; > 0 [0.3]
+        real(c_double), intent(in), optional :: k0
+            !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along
+            !! the direction in which a column presses; 0: isotropic, or none across as gp_column.initial_pressure says.
+            !! Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with m = friction_factor mu_s, any above 0 where m
+            !! >= 1. Else than 0 only with GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0
+            !! sigma_v, the base all of the weight. Below 1 it is also the ratio in which the stresses change where the
+            !! material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at least .1
+            !! (without k0 .3): it stays while walls take weight over, until the material yields; beside walls as rough
+            !! as itself it then tends to 1. Columns side by side are in balance if they have the same one [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_material) :: made
@@ -265,6 +281,7 @@ contains
         if (present(mu_s)) made%mu_s = mu_s
         if (present(mu_2)) made%mu_2 = mu_2
         if (present(i0)) made%i0 = i0
+        if (present(k0)) made%k0 = k0
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
@@ -307,7 +324,8 @@ contains
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_plate( &
-            x0, y0, x1, y1, friction, wall_mu, vx, vy, normal_pressure, mass_per_length, status, message) result(made)
+            x0, y0, x1, y1, friction, wall_mu, vx, vy, normal_pressure, mass_per_length, pivot_x, pivot_y, omega, &
+            surface_velocity, status, message) result(made)
         real(c_double), intent(in), optional :: x0
             !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
             !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
@@ -335,11 +353,23 @@ contains
         real(c_double), intent(in), optional :: normal_pressure
             !! Pa, a load on the plate's back: the plate moves along its normal as a rigid body under this load and the
             !! material's reaction (its own weight is part of the load), and along its tangent as prescribed: vx, vy
-            !! then have no normal part, and there is no table. 0: all of the motion is prescribed [0]
+            !! then have no normal part, and there is no table and no turn. Of a line of several points the straight way
+            !! from the first to the last counts; a closed one bears no load. 0: all of the motion is prescribed [0]
         real(c_double), intent(in), optional :: mass_per_length
             !! kg/m2, inertia of a loaded plate per length; only with normal_pressure. 0: light, as half a spacing of
             !! the heaviest material: it follows its load at once. A heavy plate rings on confined material, which damps
             !! its slow motion little [0]
+        real(c_double), intent(in), optional :: pivot_x
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double), intent(in), optional :: pivot_y
+            !! m, about this the plate turns, as a rigid body; it is displaced as the plate is. A plate that turns in a
+            !! periodic scene is no longer, corner to corner, than the period [0, 0]
+        real(c_double), intent(in), optional :: omega
+            !! rad/s, constant rate of turning, counter-clockwise; not with a table or a load [0]
+        real(c_double), intent(in), optional :: surface_velocity
+            !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
+            !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_plate) :: made
@@ -357,6 +387,10 @@ contains
         if (present(vy)) made%vy = vy
         if (present(normal_pressure)) made%normal_pressure = normal_pressure
         if (present(mass_per_length)) made%mass_per_length = mass_per_length
+        if (present(pivot_x)) made%pivot_x = pivot_x
+        if (present(pivot_y)) made%pivot_y = pivot_y
+        if (present(omega)) made%omega = omega
+        if (present(surface_velocity)) made%surface_velocity = surface_velocity
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
@@ -369,7 +403,8 @@ contains
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t), intent(in), optional :: compression !! deflate level, 0 .. 9 [4]
         integer(c_int32_t), intent(in), optional :: single_precision
-            !! 1: floating-point fields as 32 bits; time stays 64 [0]
+            !! 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are rounded to
+            !! 1e-5 spacings, wherever they are, which compresses as well as 32 bits
         integer(c_int64_t), intent(in), optional :: append
             !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
         integer(c_int32_t), intent(out), optional :: status

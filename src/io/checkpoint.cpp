@@ -39,6 +39,7 @@ void write_scene(CheckpointWriter &file, const Scene &scene) {
         materials.mu_s.push_back(m.mu_s);
         materials.mu_2.push_back(m.mu_2);
         materials.i0.push_back(m.i0);
+        materials.k0.push_back(m.k0);
     }
     exchange_materials(file, materials);
 
@@ -68,60 +69,79 @@ void write_scene(CheckpointWriter &file, const Scene &scene) {
 
     PlateTable plates;
     for (const PlateSpec &p : scene.plates()) {
-        plates.x0.push_back(p.segment.origin.x());
-        plates.y0.push_back(p.segment.origin.y());
-        plates.x1.push_back(p.end.x());
-        plates.y1.push_back(p.end.y());
+        plates.n_points.push_back(p.points.size() > 2 ? static_cast<int64_t>(p.points.size()) : 0);
+        for (const Vector &point : p.points) {
+            plates.point_x.push_back(point.x());
+            plates.point_y.push_back(point.y());
+        }
         plates.friction.push_back(p.friction);
         plates.wall_mu.push_back(p.wall_mu);
-        plates.vx.push_back(p.velocity.x());
-        plates.vy.push_back(p.velocity.y());
+        plates.pivot_x.push_back(p.pivot.x());
+        plates.pivot_y.push_back(p.pivot.y());
+        plates.vx.push_back(p.motion.velocity.x());
+        plates.vy.push_back(p.motion.velocity.y());
+        plates.omega.push_back(p.motion.omega);
+        plates.surface_velocity.push_back(p.surface_velocity);
         plates.start_x.push_back(p.start.x());
         plates.start_y.push_back(p.start.y());
+        plates.start_angle.push_back(p.start_angle);
         plates.normal_pressure.push_back(p.load);
         plates.mass_per_length.push_back(p.mass);
         plates.n_knots.push_back(static_cast<int64_t>(p.table.t.size()));
         plates.knot_t.insert(plates.knot_t.end(), p.table.t.begin(), p.table.t.end());
         plates.knot_x.insert(plates.knot_x.end(), p.table.x.begin(), p.table.x.end());
         plates.knot_y.insert(plates.knot_y.end(), p.table.y.begin(), p.table.y.end());
+        plates.n_knot_angles.push_back(static_cast<int64_t>(p.table.angle.size()));
+        plates.knot_angle.insert(plates.knot_angle.end(), p.table.angle.begin(), p.table.angle.end());
     }
     exchange_plates(file, plates);
 }
 
 void write_world(CheckpointWriter &file, const World &world) {
     exchange_clock_and_sums(file, world);
-    ListTable lists{world.lists_valid, world.skin, world.shifted, {}, {}, {}, {}, {}};
-    for (const Plate::Motion &motion : world.list_origin.plates) {
-        lists.plate_x.push_back(motion.origin.x());
-        lists.plate_y.push_back(motion.origin.y());
-        lists.plate_driven.push_back(motion.driven);
-        lists.plate_vx.push_back(motion.driven_velocity.x());
-        lists.plate_vy.push_back(motion.driven_velocity.y());
+    ListTable lists;
+    lists.valid = world.lists_valid;
+    lists.skin = world.skin;
+    lists.shifted = world.shifted;
+    for (const Plate::State &state : world.list_origin.plates) {
+        lists.plate_x.push_back(state.placed.shift.x());
+        lists.plate_y.push_back(state.placed.shift.y());
+        lists.plate_angle.push_back(state.placed.angle);
+        lists.plate_driven.push_back(state.driven);
+        lists.plate_vx.push_back(state.driven_motion.velocity.x());
+        lists.plate_vy.push_back(state.driven_motion.velocity.y());
+        lists.plate_omega.push_back(state.driven_motion.omega);
     }
     exchange_lists(file, lists, world);
     exchange_particles(file, world.particles, world.listed);
 
     PlateMotionTable t;
     for (const Plate &plate : world.walls.plates) {
-        const Plate::Motion m = plate.motion();
+        const Plate::State &m = plate.state();
         t.driven.push_back(m.driven);
         t.driven_since.push_back(m.driven_since);
-        t.driven_from_x.push_back(m.driven_from.x());
-        t.driven_from_y.push_back(m.driven_from.y());
-        t.driven_vx.push_back(m.driven_velocity.x());
-        t.driven_vy.push_back(m.driven_velocity.y());
+        t.driven_from_x.push_back(m.driven_from.shift.x());
+        t.driven_from_y.push_back(m.driven_from.shift.y());
+        t.driven_from_angle.push_back(m.driven_from.angle);
+        t.driven_vx.push_back(m.driven_motion.velocity.x());
+        t.driven_vy.push_back(m.driven_motion.velocity.y());
+        t.driven_omega.push_back(m.driven_motion.omega);
         t.fallen.push_back(m.fallen);
         t.fall_speed.push_back(m.fall_speed);
         t.wrapped.push_back(m.wrapped);
-        t.x.push_back(m.origin.x());
-        t.y.push_back(m.origin.y());
-        t.vx.push_back(m.velocity.x());
-        t.vy.push_back(m.velocity.y());
+        t.x.push_back(m.placed.shift.x());
+        t.y.push_back(m.placed.shift.y());
+        t.angle.push_back(m.placed.angle);
+        t.vx.push_back(m.motion.velocity.x());
+        t.vy.push_back(m.motion.velocity.y());
+        t.omega.push_back(m.motion.omega);
         t.fx.push_back(plate.force.x());
         t.fy.push_back(plate.force.y());
         t.torque.push_back(plate.torque);
+        t.torque_pivot.push_back(plate.torque_pivot);
         t.impulse_x.push_back(plate.impulse.x());
         t.impulse_y.push_back(plate.impulse.y());
+        t.impulse_torque.push_back(plate.impulse_torque);
         t.gap.push_back(plate.gap);
     }
     exchange_motions(file, t);
@@ -178,7 +198,7 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
     MaterialTable t;
     exchange_materials(file, t);
     const std::size_t n = t.grain_density.size();
-    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0})
+    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0, &t.k0})
         check.same_size("materials", *array, n);
     check.require(n > 0, "no material 0");
     for (std::size_t k = 1; k < n; ++k) { // the first one is there
@@ -189,6 +209,7 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
         m.mu_s = t.mu_s[k];
         m.mu_2 = t.mu_2[k];
         m.i0 = t.i0[k];
+        m.k0 = t.k0[k];
         sim.add_material(m);
     }
 }
@@ -235,39 +256,63 @@ void read_bodies(CheckpointReader &file, const Checker &check, Sim &sim) {
 void read_plates(CheckpointReader &file, const Checker &check, Sim &sim) {
     PlateTable t;
     exchange_plates(file, t);
-    const std::size_t n = t.x0.size(), knots = t.knot_t.size();
-    for (const auto *array : {&t.y0, &t.x1, &t.y1, &t.wall_mu, &t.vx, &t.vy, &t.start_x, &t.start_y, &t.normal_pressure,
-                              &t.mass_per_length})
+    const std::size_t n = t.friction.size(), points = t.point_x.size(), knots = t.knot_t.size(),
+                      angles = t.knot_angle.size();
+    for (const auto *array : {&t.wall_mu, &t.pivot_x, &t.pivot_y, &t.vx, &t.vy, &t.omega, &t.surface_velocity,
+                              &t.start_x, &t.start_y, &t.start_angle, &t.normal_pressure, &t.mass_per_length})
         check.same_size("plates", *array, n);
-    check.same_size("plates", t.friction, n);
-    check.same_size("plates", t.n_knots, n);
+    for (const auto *array : {&t.n_points, &t.n_knots, &t.n_knot_angles})
+        check.same_size("plates", *array, n);
+    check.same_size("points", t.point_y, points);
     check.same_size("knots", t.knot_x, knots);
     check.same_size("knots", t.knot_y, knots);
-    std::size_t first = 0;
+    std::size_t point = 0, knot = 0, angle = 0;
     for (std::size_t k = 0; k < n; ++k) {
-        check.require(
-            t.n_knots[k] >= 0 && static_cast<uint64_t>(t.n_knots[k]) <= knots - first,
-            format_text("plate %zu has %lld knots of %zu", k, static_cast<long long>(t.n_knots[k]), knots - first));
+        const auto has = [&](const char *what, int64_t count, std::size_t left) {
+            check.require(count >= 0 && static_cast<uint64_t>(count) <= left,
+                          format_text("plate %zu has %lld %s of %zu", k, static_cast<long long>(count), what, left));
+        };
+        const int64_t ends = t.n_points[k] == 0 ? 2 : t.n_points[k];
+        has("points", ends, points - point);
+        has("knots", t.n_knots[k], knots - knot);
+        has("angles", t.n_knot_angles[k], angles - angle);
+        check.require(t.n_knot_angles[k] == 0 || t.n_knot_angles[k] == t.n_knots[k],
+                      format_text("plate %zu has other numbers of angles and knots", k));
         gp_plate p = default_plate();
-        p.x0 = t.x0[k];
-        p.y0 = t.y0[k];
-        p.x1 = t.x1[k];
-        p.y1 = t.y1[k];
+        if (t.n_points[k] == 0) {
+            p.x0 = t.point_x[point];
+            p.y0 = t.point_y[point];
+            p.x1 = t.point_x[point + 1];
+            p.y1 = t.point_y[point + 1];
+        } else {
+            p.n_points = t.n_points[k];
+            p.point_x = t.point_x.data() + point;
+            p.point_y = t.point_y.data() + point;
+        }
         p.friction = t.friction[k];
         p.wall_mu = t.wall_mu[k];
+        p.pivot_x = t.pivot_x[k];
+        p.pivot_y = t.pivot_y[k];
         p.vx = t.vx[k];
         p.vy = t.vy[k];
+        p.omega = t.omega[k];
+        p.surface_velocity = t.surface_velocity[k];
         p.n_knots = t.n_knots[k];
-        p.knot_t = t.knot_t.data() + first;
-        p.knot_x = t.knot_x.data() + first;
-        p.knot_y = t.knot_y.data() + first;
+        p.knot_t = t.knot_t.data() + knot;
+        p.knot_x = t.knot_x.data() + knot;
+        p.knot_y = t.knot_y.data() + knot;
+        if (t.n_knot_angles[k] > 0)
+            p.knot_angle = t.knot_angle.data() + angle;
         p.normal_pressure = t.normal_pressure[k];
         p.mass_per_length = t.mass_per_length[k];
         sim.add_plate(p);
-        sim.set_plate_start(static_cast<int32_t>(k), {t.start_x[k], t.start_y[k]});
-        first += static_cast<std::size_t>(t.n_knots[k]);
+        sim.set_plate_start(static_cast<int32_t>(k), {t.start_x[k], t.start_y[k]}, t.start_angle[k]);
+        point += static_cast<std::size_t>(ends);
+        knot += static_cast<std::size_t>(t.n_knots[k]);
+        angle += static_cast<std::size_t>(t.n_knot_angles[k]);
     }
-    check.require(first == knots, "knots that belong to no plate");
+    check.require(point == points, "points that belong to no plate");
+    check.require(knot == knots && angle == angles, "knots that belong to no plate");
 }
 
 void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w) {
@@ -279,7 +324,7 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
     check.require(c.reason >= GP_DT_NONE && c.reason <= GP_DT_RETRY, "no such reason of a time step");
     const Ledger &l = w.ledger;
     for (const double value : {l.initial, l.reference_height, l.dissipated, l.penalty, l.walls, l.diffusion, l.spacing,
-                               l.bulk, l.collisions, l.side_walls, l.plate_work, l.largest_kinetic, l.wound})
+                               l.bulk, l.collisions, l.side_walls, l.plate_work, l.scale, l.largest_kinetic, l.level})
         check.finite("ledger", value);
     for (const int64_t number : {c.step, w.collisions, w.retries, w.viscous.newton, w.viscous.linear,
                                  w.viscous.failures, static_cast<int64_t>(w.viscous.last)})
@@ -290,6 +335,10 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
     check.require(w.packing_at_start > 0, "packing_at_start: not above 0");
     check.not_negative("velocity_span", w.velocity_span);
     check.not_negative("fastest", w.fastest);
+    check.finite("gravity/x", w.constants.gravity.x());
+    check.finite("gravity/y", w.constants.gravity.y());
+    check.not_negative("gravity/fall_height", w.constants.fall_height);
+    check.not_negative("gravity/flow_speed", w.constants.flow_speed);
 }
 
 // The lists as they were made, from the positions and plates of then. Afterwards particles and plates are to be set.
@@ -303,13 +352,11 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
     check.not_negative("shifted", t.shifted);
     check.same_size("lists/x", origin.x, n);
     check.same_size("lists/y", origin.y, n);
-    check.same_size("lists/plate_x", t.plate_x, plates);
-    check.same_size("lists/plate_y", t.plate_y, plates);
     check.same_size("lists/plate_driven", t.plate_driven, plates);
-    check.same_size("lists/plate_vx", t.plate_vx, plates);
-    check.same_size("lists/plate_vy", t.plate_vy, plates);
-    check.all_finite("lists/plate_vx", t.plate_vx);
-    check.all_finite("lists/plate_vy", t.plate_vy);
+    for (const auto *array : {&t.plate_x, &t.plate_y, &t.plate_angle, &t.plate_vx, &t.plate_vy, &t.plate_omega}) {
+        check.same_size("lists/plate_...", *array, plates);
+        check.all_finite("lists/plate_...", *array);
+    }
     const double farthest = 1e15 * spacing; // beyond, lattice points behind a plate cannot be counted
     for (const auto *array : {&t.plate_x, &t.plate_y})
         for (const double value : *array)
@@ -322,12 +369,13 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
             check.require(std::abs(x - period.x_min - 0.5 * period.length) <= (0.5 + 1e-9) * period.length,
                           format_text("lists: a particle at x = %g m, beyond the period", x));
     for (std::size_t k = 0; k < plates; ++k) {
-        Plate::Motion motion;
-        motion.origin = {t.plate_x[k], t.plate_y[k]};
-        motion.driven = t.plate_driven[k] != 0;
-        motion.driven_velocity = {t.plate_vx[k], t.plate_vy[k]};
-        w.walls.plates[k].set_motion(motion);
+        Plate::State state;
+        state.placed = {{t.plate_x[k], t.plate_y[k]}, t.plate_angle[k]};
+        state.driven = t.plate_driven[k] != 0;
+        state.driven_motion = {{t.plate_vx[k], t.plate_vy[k]}, t.plate_omega[k]};
+        w.walls.plates[k].set_state(state);
     }
+    w.walls.place_facets();
     std::copy(origin.x.begin(), origin.x.end(), w.particles.x.begin());
     std::copy(origin.y.begin(), origin.y.end(), w.particles.y.begin());
     w.skin = t.skin;
@@ -374,9 +422,7 @@ void read_motions(CheckpointReader &file, const Checker &check, World &w) {
     exchange_motions(file, t);
     const std::size_t n = w.walls.plates.size();
     check.same_size("plate_motions", t.driven, n);
-    for (const auto *array :
-         {&t.driven_since, &t.driven_from_x, &t.driven_from_y, &t.driven_vx, &t.driven_vy, &t.fallen, &t.fall_speed,
-          &t.wrapped, &t.x, &t.y, &t.vx, &t.vy, &t.fx, &t.fy, &t.torque, &t.impulse_x, &t.impulse_y}) {
+    for (const auto *array : t.numbers()) {
         check.same_size("plate_motions", *array, n);
         check.all_finite("plate_motions", *array);
     }
@@ -384,20 +430,25 @@ void read_motions(CheckpointReader &file, const Checker &check, World &w) {
     for (std::size_t k = 0; k < n; ++k) {
         check.require(!std::isnan(t.gap[k]), "gap: not a number");
         Plate &plate = w.walls.plates[k];
-        plate.set_motion({t.driven[k] != 0,
-                          t.driven_since[k],
-                          {t.driven_from_x[k], t.driven_from_y[k]},
-                          {t.driven_vx[k], t.driven_vy[k]},
-                          t.fallen[k],
-                          t.fall_speed[k],
-                          t.wrapped[k],
-                          {t.x[k], t.y[k]},
-                          {t.vx[k], t.vy[k]}});
+        Plate::State state;
+        state.driven = t.driven[k] != 0;
+        state.driven_since = t.driven_since[k];
+        state.driven_from = {{t.driven_from_x[k], t.driven_from_y[k]}, t.driven_from_angle[k]};
+        state.driven_motion = {{t.driven_vx[k], t.driven_vy[k]}, t.driven_omega[k]};
+        state.fallen = t.fallen[k];
+        state.fall_speed = t.fall_speed[k];
+        state.wrapped = t.wrapped[k];
+        state.placed = {{t.x[k], t.y[k]}, t.angle[k]};
+        state.motion = {{t.vx[k], t.vy[k]}, t.omega[k]};
+        plate.set_state(state);
         plate.force = {t.fx[k], t.fy[k]};
         plate.torque = t.torque[k];
+        plate.torque_pivot = t.torque_pivot[k];
         plate.impulse = {t.impulse_x[k], t.impulse_y[k]};
+        plate.impulse_torque = t.impulse_torque[k];
         plate.gap = t.gap[k];
     }
+    w.walls.place_facets();
 }
 
 void read_pieces(CheckpointReader &file, const Checker &check, World &w) {
@@ -419,7 +470,8 @@ std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, 
     read_particles(file, check, scene, *world);
     read_motions(file, check, *world);
     exchange_ghosts(file, world->walls);
-    for (const auto *field : {&world->walls.ghost_x, &world->walls.ghost_y}) {
+    for (const auto *field :
+         {&world->walls.ghost_x, &world->walls.ghost_y, &world->walls.ghost_nx, &world->walls.ghost_ny}) {
         check.same_size("ghosts", *field, static_cast<std::size_t>(world->walls.ghost_count));
         check.all_finite("ghosts", *field);
     }

@@ -12,7 +12,7 @@
 namespace gp::io {
 
 struct MaterialTable {
-    std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0;
+    std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, k0;
 };
 
 template <class File, class Table> void exchange_materials(File &file, Table &t) {
@@ -23,6 +23,7 @@ template <class File, class Table> void exchange_materials(File &file, Table &t)
     file.array("mu_s", t.mu_s);
     file.array("mu_2", t.mu_2);
     file.array("i0", t.i0);
+    file.array("k0", t.k0);
 }
 
 // Columns as they were added, and sets of particles with their initial positions and velocities one after the other.
@@ -53,30 +54,37 @@ template <class File, class Table> void exchange_bodies(File &file, Table &t) {
 
 // Plates as they were added or, driven before the first step, have become since. Knots one plate after the other.
 struct PlateTable {
-    std::vector<double> x0, y0, x1, y1, wall_mu, vx, vy, start_x, start_y, normal_pressure, mass_per_length;
+    std::vector<int64_t> n_points, n_knots, n_knot_angles; // n_points: 0 for a plate of two ends
+    std::vector<double> point_x, point_y, knot_t, knot_x, knot_y, knot_angle;
+    std::vector<double> wall_mu, pivot_x, pivot_y, vx, vy, omega, surface_velocity, start_x, start_y, start_angle,
+        normal_pressure, mass_per_length;
     std::vector<int32_t> friction;
-    std::vector<int64_t> n_knots;
-    std::vector<double> knot_t, knot_x, knot_y;
 };
 
 template <class File, class Table> void exchange_plates(File &file, Table &t) {
     file.group("/plates");
-    file.array("x0", t.x0);
-    file.array("y0", t.y0);
-    file.array("x1", t.x1);
-    file.array("y1", t.y1);
+    file.array("n_points", t.n_points);
+    file.array("point_x", t.point_x);
+    file.array("point_y", t.point_y);
     file.array("friction", t.friction);
     file.array("wall_mu", t.wall_mu);
+    file.array("pivot_x", t.pivot_x);
+    file.array("pivot_y", t.pivot_y);
     file.array("vx", t.vx);
     file.array("vy", t.vy);
+    file.array("omega", t.omega);
+    file.array("surface_velocity", t.surface_velocity);
     file.array("start_x", t.start_x);
     file.array("start_y", t.start_y);
+    file.array("start_angle", t.start_angle);
     file.array("normal_pressure", t.normal_pressure);
     file.array("mass_per_length", t.mass_per_length);
     file.array("n_knots", t.n_knots);
     file.array("knot_t", t.knot_t);
     file.array("knot_x", t.knot_x);
     file.array("knot_y", t.knot_y);
+    file.array("n_knot_angles", t.n_knot_angles);
+    file.array("knot_angle", t.knot_angle);
 }
 
 template <class File, class State> void exchange_progress(File &file, State &progress) {
@@ -123,8 +131,14 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
     file.value("collisions", w.ledger.collisions);
     file.value("side_walls", w.ledger.side_walls);
     file.value("plate_work", w.ledger.plate_work);
+    file.value("scale", w.ledger.scale);
     file.value("largest_kinetic", w.ledger.largest_kinetic);
-    file.value("wound", w.ledger.wound);
+    file.value("level", w.ledger.level);
+    file.group("/gravity");
+    file.value("x", w.constants.gravity.x());
+    file.value("y", w.constants.gravity.y());
+    file.value("fall_height", w.constants.fall_height);
+    file.value("flow_speed", w.constants.flow_speed);
     file.group("/so_far");
     file.value("collisions", w.collisions);
     file.value("max_compression", w.max_compression);
@@ -145,9 +159,9 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
 struct ListTable {
     bool valid = false;
     double skin = 0, shifted = 0;
-    std::vector<double> plate_x, plate_y;
+    std::vector<double> plate_x, plate_y, plate_angle; // shift and turn
     std::vector<int32_t> plate_driven; // by the host: which plates made one wall follows from how they move
-    std::vector<double> plate_vx, plate_vy;
+    std::vector<double> plate_vx, plate_vy, plate_omega;
 };
 
 template <class File, class Table, class W> void exchange_lists(File &file, Table &t, W &w) {
@@ -160,8 +174,10 @@ template <class File, class Table, class W> void exchange_lists(File &file, Tabl
     file.array("plate_x", t.plate_x);
     file.array("plate_y", t.plate_y);
     file.array("plate_driven", t.plate_driven);
+    file.array("plate_angle", t.plate_angle);
     file.array("plate_vx", t.plate_vx);
     file.array("plate_vy", t.plate_vy);
+    file.array("plate_omega", t.plate_omega);
 }
 
 // In the engine's own order, with the images across the ends of a period.
@@ -187,8 +203,38 @@ template <class File, class P, class Listed> void exchange_particles(File &file,
 
 struct PlateMotionTable {
     std::vector<int32_t> driven;
-    std::vector<double> driven_since, driven_from_x, driven_from_y, driven_vx, driven_vy, fallen, fall_speed, wrapped;
-    std::vector<double> x, y, vx, vy, fx, fy, torque, impulse_x, impulse_y, gap;
+    std::vector<double> driven_since, driven_from_x, driven_from_y, driven_from_angle, driven_vx, driven_vy,
+        driven_omega;
+    std::vector<double> fallen, fall_speed, wrapped;
+    std::vector<double> x, y, angle, vx, vy, omega; // shift, turn and motion
+    std::vector<double> fx, fy, torque, torque_pivot, impulse_x, impulse_y, impulse_torque, gap;
+
+    // All but gap, which may be infinite, and driven.
+    std::vector<std::vector<double> *> numbers() {
+        return {&driven_since,
+                &driven_from_x,
+                &driven_from_y,
+                &driven_from_angle,
+                &driven_vx,
+                &driven_vy,
+                &driven_omega,
+                &fallen,
+                &fall_speed,
+                &wrapped,
+                &x,
+                &y,
+                &angle,
+                &vx,
+                &vy,
+                &omega,
+                &fx,
+                &fy,
+                &torque,
+                &torque_pivot,
+                &impulse_x,
+                &impulse_y,
+                &impulse_torque};
+    }
 };
 
 template <class File, class Table> void exchange_motions(File &file, Table &t) {
@@ -197,20 +243,26 @@ template <class File, class Table> void exchange_motions(File &file, Table &t) {
     file.array("driven_since", t.driven_since);
     file.array("driven_from_x", t.driven_from_x);
     file.array("driven_from_y", t.driven_from_y);
+    file.array("driven_from_angle", t.driven_from_angle);
     file.array("driven_vx", t.driven_vx);
     file.array("driven_vy", t.driven_vy);
+    file.array("driven_omega", t.driven_omega);
     file.array("fallen", t.fallen);
     file.array("fall_speed", t.fall_speed);
     file.array("wrapped", t.wrapped);
     file.array("x", t.x);
     file.array("y", t.y);
+    file.array("angle", t.angle);
     file.array("vx", t.vx);
     file.array("vy", t.vy);
+    file.array("omega", t.omega);
     file.array("fx", t.fx);
     file.array("fy", t.fy);
     file.array("torque", t.torque);
+    file.array("torque_pivot", t.torque_pivot);
     file.array("impulse_x", t.impulse_x);
     file.array("impulse_y", t.impulse_y);
+    file.array("impulse_torque", t.impulse_torque);
     file.array("gap", t.gap);
 }
 
@@ -219,6 +271,8 @@ template <class File, class W> void exchange_ghosts(File &file, W &walls) {
     file.group("/ghosts");
     file.array("x", walls.ghost_x);
     file.array("y", walls.ghost_y);
+    file.array("nx", walls.ghost_nx);
+    file.array("ny", walls.ghost_ny);
 }
 
 struct PieceTable {

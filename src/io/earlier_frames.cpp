@@ -18,6 +18,7 @@ struct EarlierFrames::Impl : Hdf5Writer {
     std::vector<Element> elements; // those that change
     std::size_t observable_count = 0;
     Id observables;
+    std::size_t wall_points = 0;
     mutable std::vector<double> packed;
 
     [[noreturn]] void refuse(const std::string &why) const {
@@ -88,7 +89,9 @@ struct EarlierFrames::Impl : Hdf5Writer {
                 !std::equal(expected.begin(), expected.end(), shape.begin() + 1))
                 refuse(name + " has another shape");
             const Id type = own(H5Dget_type(value), "read " + name);
-            if (H5Tget_size(type) != (single ? 4u : 8u))
+            const std::size_t bytes = H5Tget_size(type);
+            const bool is_position = std::strcmp(f.name, "position") == 0; // 0.1 wrote 4 bytes: they become 8
+            if (bytes != (single && !is_position ? 4u : 8u) && !(single && is_position && bytes == 4))
                 refuse("it is of another precision (gp_output.single_precision)");
             elements.push_back({f.name, f.components, std::move(value)});
         }
@@ -121,6 +124,24 @@ struct EarlierFrames::Impl : Hdf5Writer {
         if (!values.empty())
             read_frame(observables, frame, {observable_count}, values.data(),
                        "read frame " + std::to_string(frame) + " of the observables");
+    }
+
+    void check_walls(const WallLines &walls) {
+        wall_points = walls.plate.size();
+        const bool there = check(H5Lexists(file, "/walls", H5P_DEFAULT), "read /walls") > 0;
+        if (walls.plate.empty() ? there : !there || read_row<int64_t>("/walls/plate", H5T_NATIVE_INT64) != walls.plate)
+            refuse("it has other plates");
+    }
+
+    void read_walls(int64_t frame, std::vector<double> &points) const {
+        points.resize(3 * wall_points);
+        if (points.empty())
+            return;
+        const std::string name = group_of_frame(frame) + "/walls";
+        const Id dataset = open(name);
+        if (extent_of(dataset, name) != std::vector<hsize_t>{wall_points, 3})
+            refuse(name + " has another shape");
+        check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, points.data()), "read " + name);
     }
 
     void read(hsize_t frame, std::vector<std::vector<double>> &components) const {
@@ -163,6 +184,7 @@ EarlierFrames::EarlierFrames(const std::string &path, const FrameHeader &header,
         impl.refuse("its steps are not in order");
     impl.open_fields(fields, constant_values, single_precision, frames);
     impl.open_observables(header.observables.size(), frames);
+    impl.check_walls(header.walls);
 }
 
 EarlierFrames::~EarlierFrames() {
@@ -170,11 +192,12 @@ EarlierFrames::~EarlierFrames() {
     impl_.reset();
 }
 
-void EarlierFrames::read(int64_t frame, std::vector<std::vector<double>> &components,
-                         std::vector<double> &observables) const {
+void EarlierFrames::read(int64_t frame, std::vector<std::vector<double>> &components, std::vector<double> &observables,
+                         std::vector<double> &wall_points) const {
     const Session session;
     impl_->read(static_cast<hsize_t>(frame), components);
     impl_->read_observables(static_cast<hsize_t>(frame), observables);
+    impl_->read_walls(frame, wall_points);
 }
 
 } // namespace gp::io

@@ -23,8 +23,9 @@ public:
     const std::vector<int64_t> &steps() const { return steps_; }
     const std::vector<double> &times() const { return times_; }
 
-    // One frame: the components of the fields that are not constant, in order, and the observables.
-    void read(int64_t frame, std::vector<std::vector<double>> &components, std::vector<double> &observables) const;
+    // One frame: the components of the fields that are not constant, in order, the observables, and the points of the walls.
+    void read(int64_t frame, std::vector<std::vector<double>> &components, std::vector<double> &observables,
+              std::vector<double> &wall_points) const;
 
 private:
     struct Impl;

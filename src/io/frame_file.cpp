@@ -1,6 +1,7 @@
 #include "io/frame_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "error.hpp"
@@ -13,9 +14,8 @@ namespace gp::io {
 
 namespace {
 
-// Views per group. A small group's table of names never has to move, which keeps every change of it a single write.
-constexpr int64_t views_per_group = 256;
 constexpr int64_t groups_expected = 480; // a table of names in one page: see Store
+constexpr int64_t links_expected = 6; // what the name of the walls and a link to earlier ones take of a table, in names
 
 struct Element {
     std::string name, unit;
@@ -24,7 +24,14 @@ struct Element {
     Id value; // of a time-dependent element
 
     std::string path() const { return "/particles/all/" + name; }
+    bool is_position() const { return name == "position"; }
 };
+
+// With single precision, positions are kept as 64 bits all the same: 32 would be 5 places for 160 particles in the coordinates
+// of a map. They are rounded to a power of two of at most 1e-5 spacings, so that the rest of the bits compresses to nothing.
+double position_unit(double spacing) {
+    return std::exp2(std::floor(std::log2(1e-5 * spacing)));
+}
 
 } // namespace
 
@@ -33,6 +40,7 @@ struct FrameFile::Impl : Hdf5Writer {
     int64_t count = 0, frames = 0;
     int compression = 0;
     bool single = false, is_open = false;  // open: the files on the disk are ours
+    double unit = 0;                       // m, to which positions are rounded; 0: not at all
     const char *suffix = "";               // of the files until they are published
     std::string file_name, side_file_name; // with it
     int replaced_fd = -1;                  // of the XDMF file that will be replaced: holds its lock
@@ -43,6 +51,9 @@ struct FrameFile::Impl : Hdf5Writer {
     Id step, time;
     std::size_t observable_count = 0;
     Id observables; // /observables/state/value, if there are any
+    std::size_t wall_point_count = 0, wall_segment_count = 0;
+    std::vector<double> wall_points; // as they were last written,
+    std::string wall_path;           // there
     XdmfFile side;
 
     ~Impl() {
@@ -169,7 +180,7 @@ struct FrameFile::Impl : Hdf5Writer {
     // ---------------------------------------------------------------------------------------------------- layout
 
     hid_t type_of(const Element &element) const {
-        return element.integer ? H5T_STD_I64LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+        return element.integer ? H5T_STD_I64LE : single && !element.is_position() ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     }
 
     // The extent of one frame of an element.
@@ -224,12 +235,13 @@ struct FrameFile::Impl : Hdf5Writer {
         }
         make_scene(header.scene);
         make_observables(header.observables);
+        make_walls(header.walls);
         // step before time, which a reader goes by: of two datasets the lower one in the file is written first.
         const std::string home = "/particles/all/position/";
         step = make_dataset(home + "step", H5T_STD_I64LE, {}, true, 0, "");
         time = make_dataset(home + "time", H5T_IEEE_F64LE, {}, true, 0, "s");
         for (const Element &element : elements)
-            if (!element.constant && element.name != "position")
+            if (!element.constant && !element.is_position())
                 link_clock(home, element.path());
         if (observable_count > 0)
             link_clock(home, "/observables/state");
@@ -272,6 +284,22 @@ struct FrameFile::Impl : Hdf5Writer {
         set_texts(observables, "units", units);
     }
 
+    void make_walls(const WallLines &walls) {
+        wall_point_count = walls.plate.size();
+        wall_segment_count = walls.segments.size() / 2;
+        if (walls.plate.empty())
+            return;
+        const auto put = [this](const std::string &name, const std::vector<int64_t> &values,
+                                std::vector<hsize_t> shape) {
+            Id dataset = make_dataset(name, H5T_STD_I64LE, std::move(shape), false, compression, "");
+            check(H5Dwrite(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write " + name);
+        };
+        make_group("/walls", 2);
+        put("/walls/plate", walls.plate, {wall_point_count});
+        put("/walls/segments", walls.segments, {wall_segment_count, 2});
+        side.set_walls("/walls/segments", wall_segment_count, "/walls/plate", wall_point_count);
+    }
+
     void write_constant(const Element &element, hid_t dataset, const double *data) {
         if (count == 0)
             return;
@@ -311,9 +339,11 @@ struct FrameFile::Impl : Hdf5Writer {
             return *next++;
         const double *const x = *next++, *const y = *next++;
         packed.resize(static_cast<size_t>(count) * 3);
+        const bool rounded = unit > 0 && element.is_position();
+        const auto stored = [&](double value) { return rounded ? unit * std::nearbyint(value / unit) : value; };
         for (size_t k = 0; k < static_cast<size_t>(count); ++k) {
-            packed[3 * k] = x[k];
-            packed[3 * k + 1] = y[k];
+            packed[3 * k] = stored(x[k]);
+            packed[3 * k + 1] = stored(y[k]);
             packed[3 * k + 2] = 0;
         }
         return packed.data();
@@ -349,11 +379,9 @@ struct FrameFile::Impl : Hdf5Writer {
         own(H5Dcreate2(file, name.c_str(), type_of(element), view, H5P_DEFAULT, how, H5P_DEFAULT), what);
     }
 
-    std::string outer_group() const {
-        return format_text("/frames/%06lld", static_cast<long long>(frames - frames % views_per_group));
-    }
+    std::string outer_group() const { return group_of_views(frames); }
 
-    std::string frame_group() const { return outer_group() + format_text("/%06lld", static_cast<long long>(frames)); }
+    std::string frame_group() const { return group_of_frame(frames); }
 
     void make_views() const {
         const std::string outer = outer_group(), inner = frame_group();
@@ -361,14 +389,28 @@ struct FrameFile::Impl : Hdf5Writer {
             make_group(outer, views_per_group);
         if (check(H5Lexists(file, inner.c_str(), H5P_DEFAULT), "create " + inner) > 0)
             return; // of an attempt that came so far and then failed
-        make_group(inner, static_cast<int64_t>(elements.size()));
+        make_group(inner, static_cast<int64_t>(elements.size()) + links_expected);
         for (const Element &element : elements)
             if (!element.constant)
                 make_view(inner + "/" + element.name, element);
     }
 
+    // Where the plates' points are, or a link to where it says so already.
+    void place_walls(const std::vector<double> &points) {
+        const std::string name = frame_group() + "/walls", what = "write " + name;
+        if (check(H5Lexists(file, name.c_str(), H5P_DEFAULT), what) > 0) // of an attempt that failed
+            check(H5Ldelete(file, name.c_str(), H5P_DEFAULT), what);
+        if (!wall_path.empty() && points == wall_points) {
+            check(H5Lcreate_soft(wall_path.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), what);
+            return;
+        }
+        wall_path.clear();
+        Id dataset = make_dataset(name, H5T_IEEE_F64LE, {wall_point_count, 3}, false, compression, "m");
+        check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, points.data()), what);
+    }
+
     void write(int64_t step_number, double seconds, const std::vector<const double *> &components,
-               const std::vector<double> &values) {
+               const std::vector<double> &values, const std::vector<double> &points) {
         auto next = components.begin();
         for (const Element &element : elements)
             if (!element.constant)
@@ -377,21 +419,27 @@ struct FrameFile::Impl : Hdf5Writer {
         if (observable_count > 0)
             append(observables, {observable_count}, H5T_NATIVE_DOUBLE, values.data(), "write /observables/state");
         make_views();
+        if (wall_point_count > 0)
+            place_walls(points);
         commit("write a frame");
         // Only now: a reader that goes by the number of times finds all else.
         append(step, {}, H5T_NATIVE_INT64, &step_number, "write the step");
         append(time, {}, H5T_NATIVE_DOUBLE, &seconds, "write the time");
         commit("write a frame");
+        if (wall_point_count > 0 && wall_path.empty()) { // later frames may refer to it only now
+            wall_points = points;
+            wall_path = frame_group() + "/walls";
+        }
     }
 
     void list_frame(double seconds) {
         const std::string group = frame_group() + "/";
         side.begin_frame(frames, seconds, group + "position");
         for (const Element &element : elements)
-            if (element.name != "position")
+            if (!element.is_position())
                 side.add_field(element.name, element.components, element.integer,
                                element.constant ? element.path() : group + element.name);
-        side.end_frame();
+        side.end_frame(group + "walls");
     }
 
     // The XDMF file first: it lists frames that the HDF5 file has before and after.
@@ -430,6 +478,7 @@ FrameFile::FrameFile(const std::string &path, const FrameHeader &header, std::ve
     impl_->count = header.count;
     impl_->compression = compression;
     impl_->single = single_precision;
+    impl_->unit = single_precision ? position_unit(header.spacing) : 0;
     bool has_position = false;
     for (const FrameField &f : fields) {
         impl_->elements.push_back({f.name, f.unit != nullptr ? f.unit : "", f.components, f.constant, f.integer, Id()});
@@ -458,20 +507,22 @@ FrameFile::~FrameFile() {
 }
 
 void FrameFile::write(int64_t step, double time, const std::vector<const double *> &components,
-                      const std::vector<double> &observables) {
+                      const std::vector<double> &observables, const std::vector<double> &wall_points) {
     Session session;
     Impl &impl = *impl_;
     const char *const wrong = !impl.is_open                                               ? "it is closed"
                               : Impl::pointers(impl.elements, false) != components.size() ? "wrong number of components"
-                              : impl.observable_count != observables.size() ? "wrong number of observables"
-                                                                            : nullptr;
+                              : impl.observable_count != observables.size()     ? "wrong number of observables"
+                              : 3 * impl.wall_point_count != wall_points.size() ? "wrong number of points of walls"
+                                                                                : nullptr;
     if (wrong)
         throw io_failure(impl.path, "write a frame", wrong);
     try {
         if (impl.file < 0)
             impl.reopen();
-        impl.write(step, time, components, observables);
+        impl.write(step, time, components, observables, wall_points);
     } catch (...) {
+        impl.wall_path.clear(); // with what was not committed
         impl.abandon();
         throw;
     }

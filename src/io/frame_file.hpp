@@ -7,8 +7,11 @@
 //   /particles/all/<constant field>[N]
 //   /parameters                             attributes; the scene as JSON text in the dataset `scene`
 //   /observables/state/{step,time,value[T][K]}   K numbers of the whole simulation, named by the attribute `names`
+//   /walls/plate[M], /walls/segments[S][2]  of the lines of all plates: the plate of each point, and the points of each segment
 //   /frames/<first of its 256>/<frame>/<field>   views of one frame each, [N] or [N][3], without data of their own:
 //                                           ParaView reads them where H5MD has one dataset for all frames
+//   /frames/<first of its 256>/<frame>/walls     where the points of the plates are, [M][3]; a link to those of an earlier frame
+//                                           where none has moved
 //
 // A reader of a file that is still being written, or whose writer was killed, takes the first len(time) frames.
 #pragma once
@@ -33,6 +36,12 @@ struct Observable {
     const char *name, *unit;
 };
 
+// The lines of all plates.
+struct WallLines {
+    std::vector<int64_t> plate;    // of each point
+    std::vector<int64_t> segments; // numbers of their two points, one segment after the other
+};
+
 struct FrameHeader {
     int64_t count; // particles
     double spacing;
@@ -42,6 +51,7 @@ struct FrameHeader {
     std::vector<std::pair<std::string, double>> parameters;
     std::vector<Observable> observables = {}; // none: no such dataset
     std::string scene = {};                   // empty: no such dataset
+    WallLines walls = {};                     // empty: no such group
 };
 
 // Every call may throw gp::Error with GP_E_IO. Not for use by two threads at once; two files in two threads are fine.
@@ -49,7 +59,8 @@ class FrameFile {
 public:
     // Replaces an existing file. (ParaView's reader takes no file whose name contains a colon.) The fields must include
     // a "position" of two components. constant_values: one pointer per component of each constant field, in order.
-    // compression: deflate level, 0 for none. beside: the files are <path>.part and the like until publish().
+    // compression: deflate level, 0 for none. single_precision: all but times, observables and positions as 32 bits; positions to
+    // 1e-5 spacings. beside: the files are <path>.part and the like until publish().
     FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
               const std::vector<const double *> &constant_values, int compression, bool single_precision,
               bool beside = false);
@@ -59,9 +70,9 @@ public:
 
     // components: one pointer per component of each field that is not constant, in order, to `count` values in the
     // order of id; observables: as many as the header has. After an error the frame is lost, the earlier ones are not, and
-    // the next call tries again.
+    // the next call tries again. wall_points: x, y, z of each point of the header's walls.
     void write(int64_t step, double time, const std::vector<const double *> &components,
-               const std::vector<double> &observables = {});
+               const std::vector<double> &observables = {}, const std::vector<double> &wall_points = {});
 
     // Puts the files into their place. Before, those that are there are as they were.
     void publish();

@@ -80,7 +80,28 @@ FrameHeader header_of(const World &world) {
                          {"friction_factor", world.scene->config().friction_factor}};
     header.observables = state_observables();
     header.scene = scene_text(*world.scene);
+    const std::vector<PlateSpec> &plates = world.scene->plates();
+    for (std::size_t p = 0; p < plates.size(); ++p)
+        for (std::size_t k = 0; k < plates[p].points.size(); ++k) {
+            const auto point = static_cast<int64_t>(header.walls.plate.size());
+            header.walls.plate.push_back(static_cast<int64_t>(p));
+            if (k > 0)
+                header.walls.segments.insert(header.walls.segments.end(), {point - 1, point});
+        }
     return header;
+}
+
+// x, y, z of the points of all plates, where these are by now.
+std::vector<double> points_of_walls(const World &world) {
+    std::vector<double> points;
+    for (const Plate &plate : world.walls.plates) {
+        const Placing placing(plate.pose(world.clock.time), plate.spec().pivot);
+        for (const Vector &point : plate.spec().points) {
+            const Vector at = placing.of(point);
+            points.insert(points.end(), {at.x() - plate.state().wrapped, at.y(), 0.0});
+        }
+    }
+    return points;
 }
 
 } // namespace
@@ -90,7 +111,7 @@ struct Output::Impl {
     std::string path;           // absolute
     std::vector<uint32_t> bits; // of the components that change, in the order of the file
     std::vector<std::vector<double>> values;
-    std::vector<double> observables;
+    std::vector<double> observables, wall_points;
     std::unique_ptr<FrameFile> file;
     int64_t next = 0; // the next frame by itself is due at next * every_seconds
 
@@ -98,7 +119,7 @@ struct Output::Impl {
         std::vector<const double *> components;
         for (const std::vector<double> &component : values)
             components.push_back(component.data());
-        file->write(step, time, components, observables);
+        file->write(step, time, components, observables, wall_points);
     }
 
     // How many of the earlier frames are of the simulation as it is now.
@@ -193,7 +214,7 @@ Output::Output(const std::string &path, const gp_output &options, const World &w
         std::make_unique<FrameFile>(path, header, fields, constant_values, options.compression, single, append);
     if (append) {
         for (int64_t frame = 0; frame < kept; ++frame) {
-            earlier->read(frame, impl_->values, impl_->observables);
+            earlier->read(frame, impl_->values, impl_->observables, impl_->wall_points);
             impl_->write(earlier->steps()[frame], earlier->times()[frame]);
         }
         earlier.reset();
@@ -213,6 +234,7 @@ void Output::write(const World &world) {
     for (std::size_t k = 0; k < impl_->bits.size(); ++k)
         copy_field_by_id(world, impl_->bits[k], impl_->values[k].data());
     impl_->observables = state_row(measure_state(world));
+    impl_->wall_points = points_of_walls(world);
     impl_->write(world.clock.step, world.clock.time);
 }
 

@@ -46,23 +46,40 @@ void add_material(std::string &text, const gp_material &m) {
     object.value("mu_s", m.mu_s);
     object.value("mu_2", m.mu_2);
     object.value("i0", m.i0);
+    object.value("k0", m.k0);
     object.end();
 }
 
 void add_plate(std::string &text, const PlateSpec &p) {
     Object object(text);
-    object.value("x0", p.segment.origin.x());
-    object.value("y0", p.segment.origin.y());
-    object.value("x1", p.end.x());
-    object.value("y1", p.end.y());
+    if (p.points.size() == 2) {
+        object.value("x0", p.points[0].x());
+        object.value("y0", p.points[0].y());
+        object.value("x1", p.points[1].x());
+        object.value("y1", p.points[1].y());
+    } else {
+        std::vector<double> x, y;
+        for (const Vector &point : p.points) {
+            x.push_back(point.x());
+            y.push_back(point.y());
+        }
+        object.array("point_x", x);
+        object.array("point_y", y);
+    }
     object.value("friction", p.friction);
     object.value("wall_mu", p.wall_mu);
-    object.value("vx", p.velocity.x());
-    object.value("vy", p.velocity.y());
+    object.value("vx", p.motion.velocity.x());
+    object.value("vy", p.motion.velocity.y());
+    object.value("pivot_x", p.pivot.x());
+    object.value("pivot_y", p.pivot.y());
+    object.value("omega", p.motion.omega);
+    object.value("surface_velocity", p.surface_velocity);
     if (!p.table.empty()) {
         object.array("knot_t", p.table.t);
         object.array("knot_x", p.table.x);
         object.array("knot_y", p.table.y);
+        if (!p.table.angle.empty())
+            object.array("knot_angle", p.table.angle);
     }
     object.value("normal_pressure", p.load);
     object.value("mass_per_length", p.mass);

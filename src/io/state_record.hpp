@@ -49,7 +49,6 @@ template <class Visit> void for_each_observable(const gp_state &s, const Visit &
     visit("retries", "", static_cast<double>(s.retries));
     visit("dt_limit", "s", s.dt_limit);
     visit("max_compression", "", s.max_compression);
-    visit("spacing_dissipated", "J m-1", s.spacing_dissipated);
     visit("x_q01", "m", s.x_q01);
     visit("x_q05", "m", s.x_q05);
     visit("x_q25", "m", s.x_q25);
@@ -61,6 +60,8 @@ template <class Visit> void for_each_observable(const gp_state &s, const Visit &
     visit("centre_y", "m", s.centre_y);
     visit("detached", "", s.detached);
     visit("volume_drift", "", s.volume_drift);
+    visit("gravity_x", "m s-2", s.gravity_x);
+    visit("gravity_y", "m s-2", s.gravity_y);
 }
 
 inline std::vector<Observable> state_observables() {

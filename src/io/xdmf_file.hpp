@@ -75,6 +75,16 @@ public:
     // makes no cells without it, vtkXdmfReader does.
     void set_cells(const std::string &path) { cells_ = path; }
 
+    // Lines that each frame shows beside the particles. Paths of arrays inside the HDF5 file: the two points of each segment, and
+    // the plate of each point.
+    void set_walls(const std::string &segments_path, std::size_t segments, const std::string &plate_path,
+                   std::size_t points) {
+        segments_ = segments;
+        wall_points_ = points;
+        segments_path_ = segments_path;
+        plate_path_ = plate_path;
+    }
+
     // One frame: begin_frame, then its fields, then end_frame. path: of the array inside the HDF5 file.
     void begin_frame(int64_t frame, double time, const std::string &position_path) {
         const std::string n = std::to_string(count_);
@@ -84,22 +94,40 @@ public:
             body_ = room_end_ = 0; // all of it is new
         }
         has_frames_ = true;
+        const bool alone = count_ > 0 && wall_points_ == 0;
         lacking_ += "   <Grid Name=\"frame " + std::to_string(frame) + "\" GridType=\"" +
-                    (count_ > 0 ? "Uniform" : "Collection\" CollectionType=\"Spatial") + "\">\n    <Time Value=\"" +
+                    (alone ? "Uniform" : "Collection\" CollectionType=\"Spatial") + "\">\n    <Time Value=\"" +
                     xml_number(time) + "\"/>\n";
         if (count_ == 0) // ParaView's reader fails on arrays without elements
             return;
+        if (!alone)
+            lacking_ += "    <Grid Name=\"particles\" GridType=\"Uniform\">\n";
         lacking_ += "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n + "\" NodesPerElement=\"1\"" +
-                    (cells_.empty() ? "/>\n" : ">" + array(cells_, 1, true) + "</Topology>\n") +
-                    "    <Geometry GeometryType=\"XYZ\">" + array(position_path, 2, false) + "</Geometry>\n";
+                    (cells_.empty() ? "/>\n" : ">" + array(cells_, 1, 8, true) + "</Topology>\n") +
+                    "    <Geometry GeometryType=\"XYZ\">" + array(position_path, 2, 8, false) + "</Geometry>\n";
     }
     void add_field(const std::string &name, int components, bool integer, const std::string &path) {
         if (count_ > 0)
             lacking_ += "    <Attribute Name=\"" + xml_text(name) + "\" AttributeType=\"" +
                         (components == 1 ? "Scalar" : "Vector") + "\" Center=\"Node\">" +
-                        array(path, components, integer) + "</Attribute>\n";
+                        array(path, components, integer ? 8 : precision_, integer) + "</Attribute>\n";
     }
-    void end_frame() { lacking_ += "   </Grid>\n"; }
+    // walls_path: of the array with the points of the walls.
+    void end_frame(const std::string &walls_path) {
+        if (wall_points_ > 0) {
+            const std::string segments = std::to_string(segments_), points = std::to_string(wall_points_);
+            if (count_ > 0)
+                lacking_ += "    </Grid>\n";
+            lacking_ += "    <Grid Name=\"walls\" GridType=\"Uniform\">\n"
+                        "    <Topology TopologyType=\"Polyline\" NumberOfElements=\"" +
+                        segments + "\" NodesPerElement=\"2\">" + item(segments_path_, segments + " 2", "Int", 8) +
+                        "</Topology>\n    <Geometry GeometryType=\"XYZ\">" +
+                        item(walls_path, points + " 3", "Float", 8) +
+                        "</Geometry>\n    <Attribute Name=\"plate\" AttributeType=\"Scalar\" Center=\"Node\">" +
+                        item(plate_path_, points, "Int", 8) + "</Attribute>\n    </Grid>\n";
+        }
+        lacking_ += "   </Grid>\n";
+    }
 
     // Brings the file up to date. Returns 0 or an errno; then the file is valid, and the next call tries again.
     int write() {
@@ -184,16 +212,22 @@ private:
 
     static std::string domain_end() { return " </Domain>\n</Xdmf>\n"; }
 
-    std::string array(const std::string &path, int components, bool integer) const {
-        return std::string("<DataItem Format=\"HDF\" NumberType=\"") + (integer ? "Int" : "Float") + "\" Precision=\"" +
-               std::to_string(integer ? 8 : precision_) + "\" Dimensions=\"" + std::to_string(count_) +
-               (components == 1 ? "" : " 3") + "\">" + hdf5_name_ + ":" + xml_text(path) + "</DataItem>";
+    std::string array(const std::string &path, int components, int bytes, bool integer) const {
+        return item(path, std::to_string(count_) + (components == 1 ? "" : " 3"), integer ? "Int" : "Float", bytes);
+    }
+
+    std::string item(const std::string &path, const std::string &dimensions, const char *type, int precision) const {
+        return std::string("<DataItem Format=\"HDF\" NumberType=\"") + type + "\" Precision=\"" +
+               std::to_string(precision) + "\" Dimensions=\"" + dimensions + "\">" + hdf5_name_ + ":" + xml_text(path) +
+               "</DataItem>";
     }
 
     int fd_ = -1;
     std::string hdf5_name_, cells_;
+    std::string segments_path_, plate_path_;
+    std::size_t segments_ = 0, wall_points_ = 0;
     int64_t count_ = 0;
-    int precision_ = 8;
+    int precision_ = 8; // bytes of a number of a field; positions have 8
     bool has_frames_ = false;
     std::string path_, head_, end_; // the tags before and behind the frames
     std::string lacking_;           // the frames that the file lacks

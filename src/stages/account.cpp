@@ -7,6 +7,49 @@
 
 namespace gp::stages {
 
+namespace {
+
+struct VelocityRange {
+    Vector low, high; // m/s
+};
+
+// Velocities of a plate's surface where it may meet material. about: the box in which it does.
+VelocityRange velocities_of(const Plate &plate, const Box &about) {
+    const Motion &motion = plate.motion();
+    VelocityRange range{motion.velocity, motion.velocity};
+    if (motion.omega != 0) {
+        const Vector pivot = plate.pivot();
+        const double far = plate.spec().farthest;
+        for (const double x : {std::clamp(about.x_min, pivot.x() - far, pivot.x() + far),
+                               std::clamp(about.x_max, pivot.x() - far, pivot.x() + far)})
+            for (const double y : {std::clamp(about.y_min, pivot.y() - far, pivot.y() + far),
+                                   std::clamp(about.y_max, pivot.y() - far, pivot.y() + far)}) {
+                const Vector velocity = plate.velocity_at({x, y});
+                range.low = range.low.cwiseMin(velocity);
+                range.high = range.high.cwiseMax(velocity);
+            }
+    }
+    if (const double belt = std::abs(plate.spec().surface_velocity); belt > 0) {
+        range.low -= Vector(belt, belt);
+        range.high += Vector(belt, belt);
+    }
+    return range;
+}
+
+// Where material may meet plates until the next lists: of a periodic scene, at any x.
+Box box_of_contacts(const World &world) {
+    Box box = world.grid.box();
+    const double margin = world.constants.reach + world.skin;
+    box = {box.x_min - margin, box.x_max + margin, box.y_min - margin, box.y_max + margin};
+    if (world.constants.period) {
+        box.x_min = -INFINITY;
+        box.x_max = INFINITY;
+    }
+    return box;
+}
+
+} // namespace
+
 void measure_velocities(World &world) {
     const Particles &p = world.particles;
     const double threshold = rest_acceleration * world.constants.gravity.norm(), threshold2 = threshold * threshold;
@@ -40,13 +83,15 @@ void measure_velocities(World &world) {
         all.v_max = std::max(all.v_max, range.v_max);
     }
     world.fastest = std::hypot(std::max(-all.u_min, all.u_max), std::max(-all.v_min, all.v_max));
+    const Box about = box_of_contacts(world);
     for (const Plate &plate : world.walls.plates) {
         if (plate.gap > 0) // too far away to matter
             continue;
-        all.u_min = std::min(all.u_min, plate.velocity().x());
-        all.u_max = std::max(all.u_max, plate.velocity().x());
-        all.v_min = std::min(all.v_min, plate.velocity().y());
-        all.v_max = std::max(all.v_max, plate.velocity().y());
+        const VelocityRange own = velocities_of(plate, about);
+        all.u_min = std::min(all.u_min, own.low.x());
+        all.u_max = std::max(all.u_max, own.high.x());
+        all.v_min = std::min(all.v_min, own.low.y());
+        all.v_max = std::max(all.v_max, own.high.y());
     }
     world.velocity_span = std::hypot(all.u_max - all.u_min, all.v_max - all.v_min);
 }
@@ -63,17 +108,24 @@ template <bool Adjoint> void close_books(World &world) {
     const double dt = world.clock.dt;
     // Power balance of the force stage, exact by the adjoint operators: with the ghosts' share G of sigma : L,
     //   total = -internal + sum (G + f . u) over contacts - penalty,
-    // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface.
+    // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface. To a plate
+    // that turns the couple is work too: then what turns with it loses nothing, and its torque is that which changes the
+    // material's angular momentum. Without the couple a layer at rest on an incline had a torque off by .4 dl times its shear
+    // force, and an inner wall of 16 dl radius turned with 4 % more than the material bears.
     double contact_power = 0, plate_power = 0;
     for (const Contact &contact : world.walls.contacts) {
         const int64_t i = contact.particle;
         const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
-        world.walls.add_load(contact.plate, {p.x[i], p.y[i]}, reaction);
+        world.walls.add_load(contact.facet, {p.x[i], p.y[i]}, reaction);
+        Plate &plate = world.walls.plates[world.walls.facets[contact.facet].plate];
+        plate.torque_pivot -= p.volume * contact.couple;
         contact_power += p.volume * (contact.ghost_power + contact.power);
-        plate_power -= reaction.dot(world.walls.plates[contact.plate].velocity());
+        plate_power -= reaction.dot(world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]})) -
+                       p.volume * contact.couple * plate.motion().omega;
     }
     for (Plate &plate : world.walls.plates) {
         plate.impulse += dt * plate.force;
+        plate.impulse_torque += dt * plate.torque_pivot;
         if (plate.loaded())
             plate.fall(dt, world.constants.plate_mass);
     }
@@ -82,7 +134,7 @@ template <bool Adjoint> void close_books(World &world) {
     world.shifted += world.velocity_span * dt;
     for (Plate &plate : world.walls.plates)
         if (plate.gap > 0) {
-            const double approach = plate.velocity().norm() + world.fastest;
+            const double approach = plate.fastest() + world.fastest;
             plate.gap -= dt * approach;
             if (plate.gap <= 0) { // it matters from the next step on, whose size a fast one limits
                 world.lists_valid = false;

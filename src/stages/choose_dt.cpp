@@ -45,8 +45,7 @@ double arrival(const World &world) {
     double soonest = INFINITY;
     for (const Plate &plate : world.walls.plates)
         if (plate.gap > 0)
-            soonest =
-                std::min(soonest, (plate.gap + world.constants.spacing) / (plate.velocity().norm() + world.fastest));
+            soonest = std::min(soonest, (plate.gap + world.constants.spacing) / (plate.fastest() + world.fastest));
     return soonest;
 }
 
@@ -62,10 +61,11 @@ std::string fastest_of(const World &world) {
         }
     const std::vector<Plate> &plates = world.walls.plates;
     for (std::size_t k = 0; k < plates.size(); ++k)
-        if (const double speed = plates[k].velocity().norm();
-            speed > fastest && plates[k].gap <= speed * world.clock.dt)
-            return format_text("plate %zu moves at (%g, %g) m/s", k, plates[k].velocity().x(),
-                               plates[k].velocity().y());
+        if (const double speed = plates[k].fastest(); speed > fastest && plates[k].gap <= speed * world.clock.dt) {
+            const Motion &motion = plates[k].motion();
+            return format_text("plate %zu moves at (%g, %g) m/s and %g rad/s, at most %g m/s", k, motion.velocity.x(),
+                               motion.velocity.y(), motion.omega, speed);
+        }
     return format_text("the fastest particle is %lld at (%g, %g) m with (%g, %g) m/s",
                        static_cast<long long>(p.id[particle]), p.x[particle], p.y[particle], p.vx[particle],
                        p.vy[particle]);

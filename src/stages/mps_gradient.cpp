@@ -10,7 +10,7 @@ namespace {
 struct View {
     Rows rows;
     const double *x, *y, *vx, *vy;
-    const Plate *plates;
+    const Facet *facets;
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, floor, scale;
     double *lxx, *lxy, *lyx, *lyy;
@@ -23,7 +23,8 @@ GP_MULTIVERSION void mps_gradient_rows(const View &v, int64_t begin, int64_t end
         for (const Contact &contact : v.rows.contacts_of(i)) {
             MpsGradient own = mps_gradient_sum(v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i],
                                                v.vx[i], v.vy[i], v.gx, v.gy, v.gvx, v.gvy, v.inverse_radius, v.floor);
-            drop_wall_shear(v.plates[contact.plate], own.xx, own.xy, own.yx, own.yy);
+            if (!passes_shear(v.facets[contact.facet]))
+                drop_shear(v.facets[contact.facet], own.xx, own.xy, own.yx, own.yy);
             m += own;
         }
         v.lxx[i] = v.scale * m.xx;
@@ -44,7 +45,7 @@ void mps_gradient(World &world) {
                     p.y.data(),
                     p.vx.data(),
                     p.vy.data(),
-                    w.plates.data(),
+                    w.facets.data(),
                     w.ghost_x.data(),
                     w.ghost_y.data(),
                     w.ghost_vx.data(),

@@ -14,7 +14,7 @@ void advance_ghosts(World &world) {
     const double dt = world.clock.dt;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
-            const Vector moved = dt * w.plates[w.ghost_plate[k]].velocity();
+            const Vector moved = dt * w.velocity_at(w.ghost_facet[k], {w.ghost_x[k], w.ghost_y[k]});
             w.ghost_x[k] += moved.x();
             w.ghost_y[k] += moved.y();
         }

@@ -6,8 +6,7 @@
 namespace gp::stages {
 
 void move_plates(World &world) {
-    for (Plate &plate : world.walls.plates)
-        plate.place(world.clock.time, world.clock.dt);
+    world.walls.place_plates(world.clock.time, world.clock.dt);
     world.walls.place_ghosts(world.threads);
 }
 
@@ -20,7 +19,7 @@ void wrap(World &world) {
     for (int64_t i = 0; i < p.count; ++i)
         if (const double shift = period.shift_of(p.x[i]); shift != 0) {
             p.x[i] -= shift;
-            world.ledger.wound -= world.material_of(i).density * p.volume * world.constants.gravity.x() * shift;
+            world.ledger.level -= world.material_of(i).density * p.volume * world.constants.gravity.x() * shift;
         }
     for (Plate &plate : world.walls.plates)
         plate.wrap(period, world.clock.time);
@@ -45,15 +44,14 @@ void update_neighbors(World &world) {
     const double shift = world.clock.dt > 0 ? world.velocity_span * world.clock.dt : 0.0;
     // The collisions at the end of this step read the lists too: its own shift counts beforehand.
     if (world.lists_valid && world.shifted + shift <= world.skin && world.walls.chains_stand()) {
-        world.walls.face_plates(world.particles);
+        world.walls.face_facets(world.particles);
         return;
     }
     world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(shift / c.spacing), thinnest_skin, thickest_skin);
     world.shifted = 0;
     if (c.period)
         wrap(world);
-    for (Plate &plate : world.walls.plates)
-        plate.place(world.clock.time, world.clock.dt);
+    world.walls.place_plates(world.clock.time, world.clock.dt);
     make_lists(world);
 }
 
@@ -70,7 +68,7 @@ void make_lists(World &world) {
     origin.y.assign(p.y.begin(), p.y.begin() + p.count);
     origin.plates.clear();
     for (const Plate &plate : world.walls.plates)
-        origin.plates.push_back(plate.motion());
+        origin.plates.push_back(plate.state());
     if (c.period) {
         // Ghosts up to `radius` beyond the ends extrapolate from what is within `radius` of them.
         world.images.make(world.particles, c.period, 2 * radius);

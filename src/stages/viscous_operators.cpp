@@ -14,7 +14,7 @@ namespace {
 
 struct View {
     Rows rows;
-    const Plate *plates;
+    const Facet *facets;
     const double *qx, *qy, *w;                   // w r and w of pairs
     const double *ghost_qx, *ghost_qy, *ghost_w; // of contacts
     const double *gxx, *gxy, *gyy;               // K^-1
@@ -22,7 +22,7 @@ struct View {
     const double *ixx, *ixy, *iyy; // of the particles alone
 
     explicit View(const World &world)
-        : rows(world), plates(world.walls.plates.data()), qx(world.viscous.pair.x.data()),
+        : rows(world), facets(world.walls.facets.data()), qx(world.viscous.pair.x.data()),
           qy(world.viscous.pair.y.data()), w(world.viscous.pair_weight.data()),
           ghost_qx(world.viscous.contact_pair.x.data()), ghost_qy(world.viscous.contact_pair.y.data()),
           ghost_w(world.viscous.contact_weight.data()), gxx(world.particles.gxx.data()),
@@ -129,16 +129,18 @@ void find_ghost_velocities(World &world, const VectorField &u, Plates plates) {
     ViscousSystem &v = world.viscous;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t g = begin; g < end; ++g) {
-            const Plate &plate = w.plates[w.ghost_plate[g]];
             Vector mean = Vector::Zero();
             for (int64_t k = mirrors.start[g]; k < mirrors.start[g + 1]; ++k) {
                 const int32_t i = mirrors.index[k];
                 mean += v.mirror_share[k] * Vector(u.x[i], u.y[i]);
             }
-            Vector own = Vector::Zero();
-            if (plates == Plates::move)
-                own = plate.velocity();
-            const Vector ghost = own + scaled(w, g, v.ghost_normal[g], mean - own);
+            Vector own = Vector::Zero(), mirrored = Vector::Zero(); // of the plate, here and at the mirror point
+            if (plates == Plates::move) {
+                const Vector at(w.ghost_x[g], w.ghost_y[g]), n(w.ghost_nx[g], w.ghost_ny[g]);
+                own = w.velocity_at(w.ghost_facet[g], at);
+                mirrored = w.velocity_at(w.ghost_facet[g], at + 2 * w.ghost_distance[g] * n);
+            }
+            const Vector ghost = own + scaled(w, g, v.ghost_normal[g], mean - mirrored);
             v.ghost_velocity.x[g] = ghost.x();
             v.ghost_velocity.y[g] = ghost.y();
         }
@@ -179,7 +181,7 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
                 yx += dv * v.ghost_qx[k];
                 yy += dv * v.ghost_qy[k];
             }
-            drop_shear(v.plates[contact.listed_plate], xx, xy, yx, yy);
+            drop_shear(v.facets[contact.listed_facet], xx, xy, yx, yy);
             mxx += xx;
             mxy += xy;
             myx += yx;
@@ -190,7 +192,7 @@ GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const
         l.yx[i] = myx * v.gxx[i] + myy * v.gxy[i];
         l.yy[i] = myx * v.gxy[i] + myy * v.gyy[i];
         if (v.beside[i] > 0) {
-            const Vector &n = v.plates[v.rows.contacts_of(i).first->listed_plate].segment().normal;
+            const Vector &n = v.facets[v.rows.contacts_of(i).first->listed_facet].segment.normal;
             const double x = n.x() * (l.xx[i] - l.inner_xx[i]) + n.y() * (l.yx[i] - l.inner_yx[i]);
             const double y = n.x() * (l.xy[i] - l.inner_xy[i]) + n.y() * (l.yy[i] - l.inner_yy[i]);
             l.inner_xx[i] += n.x() * x;
@@ -208,8 +210,8 @@ struct ThroughPlate {
     Vector normal;
     double stiffness, away; // c, n . u_i
 
-    GP_INLINE ThroughPlate(const World &world, const VectorField &u, int64_t i, const Plate &plate)
-        : normal(plate.segment().normal) {
+    GP_INLINE ThroughPlate(const World &world, const VectorField &u, int64_t i, const Facet &facet)
+        : normal(facet.segment.normal) {
         const Particles &p = world.particles;
         const ViscousSystem &v = world.viscous;
         const double c = v.stiffness[i];
@@ -217,7 +219,7 @@ struct ThroughPlate {
         xy = p.cxy[i] + c * v.lxy[i];
         yx = p.cyx[i] + c * v.lyx[i];
         yy = p.cyy[i] + c * v.lyy[i];
-        drop_shear(plate, xx, xy, yx, yy);
+        drop_shear(facet, xx, xy, yx, yy);
         stiffness = c * v.beside[i];
         const Vector &n = normal;
         const double x = stiffness * (n.x() * v.lxx[i] + n.y() * v.lyx[i]);
@@ -243,8 +245,8 @@ void find_ghost_forces(World &world, const VectorField &u) {
         for (int64_t g = begin; g < end; ++g) {
             Vector force = Vector::Zero();
             for (int64_t k = w.particles_of_ghost.start[g]; k < w.particles_of_ghost.start[g + 1]; ++k) {
-                const Plate &plate = w.plates[world.mirrors.plate_of_entry[k]];
-                const ThroughPlate through(world, u, w.particles_of_ghost.index[k], plate);
+                const Facet &facet = w.facets[world.mirrors.facet_of_entry[k]];
+                const ThroughPlate through(world, u, w.particles_of_ghost.index[k], facet);
                 force -= through.force(v, g, v.seen_pair.x[k], v.seen_pair.y[k], v.seen_weight[k]);
             }
             v.ghost_force.x[g] = force.x();
@@ -255,7 +257,7 @@ void find_ghost_forces(World &world, const VectorField &u) {
 
 GP_INLINE Vector force_of_contact(const View &v, const World &world, const VectorField &u, const Contact &contact) {
     const ViscousSystem &s = world.viscous;
-    const ThroughPlate through(world, u, contact.particle, v.plates[contact.listed_plate]);
+    const ThroughPlate through(world, u, contact.particle, v.facets[contact.listed_facet]);
     Vector force = Vector::Zero();
     for (int64_t k = contact.begin; k < contact.end; ++k)
         force += through.force(s, v.rows.ghost_index[k], v.ghost_qx[k], v.ghost_qy[k], v.ghost_w[k]);
@@ -307,7 +309,7 @@ double seen_shear(const World &world, int64_t i, const Moments &m) {
     const ViscousSystem &v = world.viscous;
     double least = 1;
     for (const Contact &contact : Rows(world).contacts_of(i)) {
-        const Vector &n = world.walls.plates[contact.listed_plate].segment().normal;
+        const Vector &n = world.walls.facets[contact.listed_facet].segment.normal;
         double ghosts = 0;
         for (int64_t k = contact.begin; k < contact.end; ++k)
             if (v.contact_weight[k] > 0) {

@@ -375,7 +375,8 @@ void viscous_solve(World &world) {
         const Vector force = viscous_contact_force(world, v.velocity, contact) + traction;
         const auto c = &contact - world.walls.contacts.data();
         friction += p.volume * v.wall_laws[c].share * v.wall_laws[c].lever * v.wall_stress[c] * v.wall_rate[c];
-        const double power = force.dot(world.walls.plates[contact.plate].velocity());
+        const double power =
+            force.dot(world.walls.velocity_at(contact.facet, {p.x[contact.particle], p.y[contact.particle]}));
         contact.force_x += force.x();
         contact.force_y += force.y();
         contact.power += power;

@@ -38,22 +38,22 @@ WallLaw law_of(const World &world, const Contact &contact, double normal) {
     const ViscousSystem &v = world.viscous;
     const Walls &w = world.walls;
     const int64_t i = contact.particle;
-    const Plate &plate = w.plates[contact.plate];
-    const Segment &s = plate.segment();
+    const Facet &facet = w.facets[contact.facet];
+    const Segment &s = facet.segment;
     WallLaw wall{};
     wall.tangent = s.tangent;
-    const Vector at = w.nearest_image(plate, {world.particles.x[i], world.particles.y[i]});
+    const Vector at = w.nearest_image(s, {world.particles.x[i], world.particles.y[i]});
     wall.lever = 2 * std::max(s.distance(at), contact_distance * world.constants.spacing);
     wall.law = world.material_of(i).law;
-    if (plate.spec().friction == GP_WALL_FREE_SLIP || normal <= 0)
+    if (facet.spec->friction == GP_WALL_FREE_SLIP || normal <= 0)
         return wall;
-    const Vector slip = Vector(v.velocity.x[i], v.velocity.y[i]) - plate.velocity();
+    const Vector slip = Vector(v.velocity.x[i], v.velocity.y[i]) - w.velocity_at(contact.facet, at);
     const double g = s.tangent.dot(slip) / wall.lever;
     wall.pressure = v.pressure[i] > 0 ? v.pressure[i] : normal * world.constants.spacing;
     const double mu = wall.law.yield(std::abs(g), wall.pressure).stress / wall.pressure;
     double borne = 1; // N over p
-    if (plate.spec().friction == GP_WALL_COULOMB) {
-        wall.law.mu_s = wall.law.mu_2 = std::min(plate.spec().wall_mu, mu);
+    if (facet.spec->friction == GP_WALL_COULOMB) {
+        wall.law.mu_s = wall.law.mu_2 = std::min(facet.spec->wall_mu, mu);
     } else {
         Tensor rate;
         rate << v.rate.x[i], v.rate.y[i], v.rate.y[i], -v.rate.x[i];
@@ -77,7 +77,7 @@ void find_wall_laws(World &world) {
         field->resize(count);
     for_each_contact(world, [&](int64_t c) {
         const Contact &contact = w.contacts[c];
-        const Vector &n = w.plates[contact.plate].segment().normal;
+        const Vector &n = w.facets[contact.facet].segment.normal;
         const Vector viscous = viscous_contact_force(world, v.velocity, contact);
         v.wall_laws[c] = law_of(world, contact, n.dot(Vector(contact.force_x, contact.force_y) + viscous));
     });
@@ -93,9 +93,10 @@ void wall_rates(World &world, const VectorField &u, Plates plates, Field<double>
     const ViscousSystem &v = world.viscous;
     for_each_contact(world, [&](int64_t c) {
         const Contact &contact = w.contacts[c];
-        Vector slip(u.x[contact.particle], u.y[contact.particle]);
+        const int64_t i = contact.particle;
+        Vector slip(u.x[i], u.y[i]);
         if (plates == Plates::move)
-            slip -= w.plates[contact.plate].velocity();
+            slip -= w.velocity_at(contact.facet, {world.particles.x[i], world.particles.y[i]});
         rate[c] = v.wall_laws[c].tangent.dot(slip) / v.wall_laws[c].lever;
     });
 }

@@ -14,9 +14,9 @@ namespace {
 // Where the particle is by now, for the plate as it was placed when the step began.
 Vector place_over(const World &world, const Contact &contact) {
     const Particles &p = world.particles;
-    const Plate &plate = world.walls.plates[contact.plate];
-    return world.walls.nearest_image(plate, {p.x[contact.particle], p.y[contact.particle]}) -
-           world.clock.dt * plate.velocity();
+    const Walls &w = world.walls;
+    const Vector now = w.nearest_image(w.facets[contact.facet].segment, {p.x[contact.particle], p.y[contact.particle]});
+    return now - world.clock.dt * w.plate_of(contact.facet).velocity_at(now);
 }
 
 // The friction of a blow that stops `approach` within the step, under the blow's pressure on the particle's width. (With
@@ -27,7 +27,7 @@ double friction_of_blow(const World &world, const Contact &contact, double appro
     const double mass = world.material_of(contact.particle).density * world.constants.spacing; // kg/m2
     const double material =
         friction_left(world.map_of(contact.particle), rate, slip, approach, mass * approach / world.clock.dt);
-    return wall_friction_bound(world.walls.plates[contact.plate].spec(), material);
+    return wall_friction_bound(*world.walls.facets[contact.facet].spec, material);
 }
 
 } // namespace
@@ -36,13 +36,12 @@ void wall_contact(World &world) {
     const Particles &p = world.particles;
     const double nearest = contact_distance * world.constants.spacing;
     for (const Contact &contact : world.walls.contacts) {
-        const Plate &plate = world.walls.plates[contact.plate];
-        const Segment &s = plate.segment();
+        const Segment &s = world.walls.facets[contact.facet].segment;
         const int64_t i = contact.particle;
         const Vector at = place_over(world, contact);
-        if (s.distance(at) >= nearest || !world.walls.faces(contact.plate, at))
+        if (s.distance(at) >= nearest || !world.walls.faces(contact.facet, at))
             continue;
-        const Vector relative = Vector(p.vx[i], p.vy[i]) - plate.velocity();
+        const Vector relative = Vector(p.vx[i], p.vy[i]) - world.walls.velocity_at(contact.facet, at);
         const double approach = -s.normal.dot(relative);
         if (approach <= 0)
             continue;
@@ -70,12 +69,12 @@ namespace {
 // ahead: change of velocity that is still to be expected in this step.
 void hold(World &world, Contact &contact, const Vector &ahead) {
     const Particles &p = world.particles;
-    const Plate &plate = world.walls.plates[contact.plate];
-    const Segment &s = plate.segment();
+    const Segment &s = world.walls.facets[contact.facet].segment;
     const Vector at = place_over(world, contact);
-    if (!world.walls.faces(contact.plate, at))
+    if (!world.walls.faces(contact.facet, at))
         return;
-    const Vector present = Vector(p.vx[contact.particle], p.vy[contact.particle]) - plate.velocity();
+    const Vector present =
+        Vector(p.vx[contact.particle], p.vy[contact.particle]) - world.walls.velocity_at(contact.facet, at);
     const Vector expected = present + ahead;
     const double dt = world.clock.dt, away = s.normal.dot(expected), slip = s.tangent.dot(expected);
     const double nearest = contact_distance * world.constants.spacing;

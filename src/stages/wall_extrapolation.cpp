@@ -123,19 +123,21 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
     const View view(world);
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
-            const Plate &plate = w.plates[w.ghost_plate[k]];
+            const int32_t facet = w.ghost_facet[k];
+            const Vector at(w.ghost_x[k], w.ghost_y[k]), own = w.velocity_at(facet, at);
             const Vector n(w.ghost_nx[k], w.ghost_ny[k]), t(-n.y(), n.x());
             const GhostRow row(w, k);
             VelocitySums sums;
             add_velocities(view, row, sums);
-            const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
+            const bool rough = w.facets[facet].spec->friction == GP_WALL_NO_SLIP;
             const bool flows = rough && flows_before(world, row);
             if (sums.w <= 0) { // in the skin only
-                w.ghost_vx[k] = plate.velocity().x();
-                w.ghost_vy[k] = plate.velocity().y();
+                w.ghost_vx[k] = own.x();
+                w.ghost_vy[k] = own.y();
                 continue;
             }
-            const Vector relative = Vector(sums.u, sums.v) / sums.w - plate.velocity();
+            const Vector way = Vector(sums.x, sums.y) / sums.w; // to the mean place of the particles
+            const Vector relative = Vector(sums.u, sums.v) / sums.w - w.velocity_at(facet, at + way);
             const double mean_distance = n.dot(Vector(sums.x, sums.y)) / sums.w - w.ghost_distance[k];
             const double distance = std::max(mean_distance, contact_distance * world.constants.spacing);
             const double ratio = w.ghost_distance[k] / distance;
@@ -143,7 +145,7 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
             // Without friction of its own a plate passes no shear through its surface.
             const double carried = Sheared ? -(flows ? ratio : std::min(ratio, steepest_tangential)) : 0.0;
             const double tangential = (rough ? carried : 1.0) * t.dot(relative);
-            const Vector ghost = plate.velocity() + normal * n + tangential * t;
+            const Vector ghost = own + normal * n + tangential * t;
             w.ghost_vx[k] = ghost.x();
             w.ghost_vy[k] = ghost.y();
         }

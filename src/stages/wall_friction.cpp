@@ -21,10 +21,9 @@ SurfaceRate surface_rate(const World &world, const Contact &contact, double dire
     const Particles &p = world.particles;
     const Constants &c = world.constants;
     const int64_t i = contact.particle;
-    const Plate &plate = world.walls.plates[contact.plate];
-    const Segment &s = plate.segment();
+    const Segment &s = world.walls.facets[contact.facet].segment;
     const double dt = world.clock.dt;
-    const Vector at = world.walls.nearest_image(plate, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was
+    const Vector at = world.walls.nearest_image(s, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was
     const double share = c.one_sided.share(s.distance(at) / c.horizon);
     const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
     return {(1 + share) * rate_per_slip(s, at, c.spacing), -share * inside};
@@ -37,7 +36,7 @@ SurfaceRate surface_rate(const World &world, const Contact &contact, double dire
 double rough_ratio(const World &world, const Contact &contact, double mu) {
     const Particles &p = world.particles;
     const int64_t i = contact.particle;
-    const Vector &n = world.walls.plates[contact.plate].segment().normal;
+    const Vector &n = world.walls.facets[contact.facet].segment.normal;
     const double across = p.sxx[i] * (n.x() * n.x() - n.y() * n.y()) + 2 * p.sxy[i] * n.x() * n.y(); // s_nn
     const double whole =
         std::max(equivalent_stress({p.sxx[i], p.sxy[i]}), world.map_of(i).mu_s * p.pressure[i]); // |s| at yield
@@ -54,14 +53,15 @@ void wall_friction(World &world) {
     const bool sticks =
         world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
     for (const Contact &contact : world.walls.contacts) {
-        const Plate &plate = world.walls.plates[contact.plate];
-        const bool rough = plate.spec().friction == GP_WALL_NO_SLIP;
-        if (plate.spec().friction == GP_WALL_FREE_SLIP || (rough && sticks))
+        const Facet &facet = world.walls.facets[contact.facet];
+        const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
+        if (facet.spec->friction == GP_WALL_FREE_SLIP || (rough && sticks))
             continue;
         const int64_t i = contact.particle;
-        const Segment &s = plate.segment();
+        const Segment &s = facet.segment;
         const double normal = s.normal.x() * contact.force_x + s.normal.y() * contact.force_y;
-        const double slip = s.tangent.dot(Vector(p.vx[i], p.vy[i]) - plate.velocity());
+        const double slip =
+            s.tangent.dot(Vector(p.vx[i], p.vy[i]) - world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]}));
         if (slip == 0 || normal <= 0)
             continue;
         const double direction = slip > 0 ? 1 : -1;
@@ -71,7 +71,7 @@ void wall_friction(World &world) {
         const ReturnMap &law = world.map_of(i);
         const SurfaceRate rate = surface_rate(world, contact, direction);
         const auto ratio_of = [&](double mu) {
-            return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(plate.spec(), mu);
+            return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(*facet.spec, mu);
         };
         // The share of mu that acts along the plate depends on mu itself, weakly.
         double mu = law.mu_s;

@@ -26,17 +26,17 @@ struct WallState {
 double other_plates(const World &world, int64_t k) {
     const Walls &w = world.walls;
     const double radius = world.constants.interaction_radius;
-    const Segment &own = w.plates[w.ghost_plate[k]].segment();
+    const Segment &own = w.facets[w.ghost_facet[k]].segment;
     const Vector at(w.ghost_x[k], w.ghost_y[k]);
     double sum = 0;
-    for (std::size_t q = 0; q < w.plates.size(); ++q) {
-        const Segment &other = w.plates[q].segment();
-        if (static_cast<int32_t>(q) == w.ghost_plate[k] || w.plates[q].gap > 0 || other.distance(at) <= 0 ||
-            other.nearest(at) >= radius)
+    for (std::size_t q = 0; q < w.facets.size(); ++q) {
+        const Segment &other = w.facets[q].segment;
+        if (static_cast<int32_t>(q) == w.ghost_facet[k] || w.plate_of(static_cast<int32_t>(q)).gap > 0 ||
+            other.distance(at) <= 0 || other.nearest(at) >= radius)
             continue;
         const auto range =
-            std::equal_range(w.ghost_plate.begin(), w.ghost_plate.end(), static_cast<int32_t>(q)); // in plate order
-        for (auto g = range.first - w.ghost_plate.begin(); g < range.second - w.ghost_plate.begin(); ++g)
+            std::equal_range(w.ghost_facet.begin(), w.ghost_facet.end(), static_cast<int32_t>(q)); // in order of facet
+        for (auto g = range.first - w.ghost_facet.begin(); g < range.second - w.ghost_facet.begin(); ++g)
             if (own.distance({w.ghost_x[g], w.ghost_y[g]}) > 0)
                 sum += weight(std::hypot(w.ghost_x[g] - at.x(), w.ghost_y[g] - at.y()), 1.0 / radius);
     }
@@ -72,10 +72,10 @@ WallState wall_state(const World &world, int64_t k) {
     state.pressure = state_pressure(ratio, density / sum * c.sound_speed * c.sound_speed);
     l *= 2.0 / c.interaction_lattice.number_density;
     state.stress = world.material_of(closest).law.stress({l(0, 0), 0.5 * (l(0, 1) + l(1, 0)), l(1, 1)}, state.pressure);
-    const Plate &plate = w.plates[w.ghost_plate[k]];
-    if (plate.spec().friction != GP_WALL_NO_SLIP) {
+    const Facet &facet = w.facets[w.ghost_facet[k]];
+    if (facet.spec->friction != GP_WALL_NO_SLIP) {
         // Such a plate passes on no shear.
-        const Vector &t = plate.segment().tangent, &n = plate.segment().normal;
+        const Vector &t = facet.segment.tangent, &n = facet.segment.normal;
         Tensor s;
         s << state.stress.xx, state.stress.xy, state.stress.xy, state.stress.yy;
         const double shear = t.dot(s * n);
@@ -113,9 +113,9 @@ void ghost_velocity(World &world) {
     const double inverse_radius = 1.0 / world.constants.interaction_radius;
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
-            const Plate &plate = w.plates[w.ghost_plate[k]];
-            Vector ghost = plate.velocity();
-            if (plate.spec().friction != GP_WALL_NO_SLIP) {
+            const Facet &facet = w.facets[w.ghost_facet[k]];
+            Vector ghost = w.velocity_at(w.ghost_facet[k], {w.ghost_x[k], w.ghost_y[k]});
+            if (facet.spec->friction != GP_WALL_NO_SLIP) {
                 // Along a plate without friction of its own, ghosts move with the particles.
                 double sum = 0;
                 Vector flow = Vector::Zero();
@@ -125,7 +125,7 @@ void ghost_velocity(World &world) {
                     sum += q;
                     flow += q * Vector(p.vx[i], p.vy[i]);
                 }
-                const Vector &t = plate.segment().tangent;
+                const Vector &t = facet.segment.tangent;
                 if (sum > 0)
                     ghost += t.dot(flow / sum - ghost) * t;
             }

@@ -30,12 +30,24 @@ def expect(condition, *what):
 
 
 def listed_frames(path):
-    """What the XDMF file lists: the HDF5 file, and (time, points, {array: components}) for each frame."""
+    """What the XDMF file lists: the HDF5 file, and for each frame (time, points, {array: components}, walls), where walls are
+    (points, segments) or None."""
     frames = []
     hdf5_path = None
     for grid in xml.parse(path).getroot().iterfind("Domain/Grid/Grid"):
         arrays = {}
         points = 0
+        time = float(grid.find("Time").get("Value"))
+        lines = grid.find("Grid[@Name='walls']")
+        walls = None
+        if lines is not None:
+            walls = (int(lines.find("Geometry/DataItem").get("Dimensions").split()[0]),
+                     int(lines.find("Topology").get("NumberOfElements")))
+            hdf5_path = os.path.join(os.path.dirname(path), lines.find("Geometry/DataItem").text.rsplit(":", 1)[0])
+            grid = grid.find("Grid[@Name='particles']")
+            if grid is None:
+                frames.append((time, 0, {}, walls))
+                continue
         geometry = grid.find("Geometry/DataItem")
         if geometry is not None:
             points = int(grid.find("Topology").get("NumberOfElements"))
@@ -43,12 +55,27 @@ def listed_frames(path):
             hdf5_path = os.path.join(os.path.dirname(path), geometry.text.rsplit(":", 1)[0])
         for attribute in grid.iterfind("Attribute"):
             arrays[attribute.get("Name")] = {"Scalar": 1, "Vector": 3}[attribute.get("AttributeType")]
-        frames.append((float(grid.find("Time").get("Value")), points, arrays))
+        frames.append((time, points, arrays, walls))
     return hdf5_path, frames
 
 
 def flat(array):
     return [x for k in range(array.GetNumberOfTuples()) for x in array.GetTuple(k)]
+
+
+def leaves(data):
+    if not data.IsA("vtkMultiBlockDataSet"):
+        return [data]
+    return [leaf for k in range(data.GetNumberOfBlocks()) for leaf in leaves(data.GetBlock(k))]
+
+
+def check_walls(data, walls, frame, where, stored):
+    lines = leaves(data)[-1]
+    expect((lines.GetNumberOfPoints(), lines.GetNumberOfCells()) == walls, where, "walls have",
+           lines.GetNumberOfPoints(), "points and", lines.GetNumberOfCells(), "segments, not", walls)
+    expect(lines.GetPointData().GetArray("plate") is not None, where, "walls do not name their plates")
+    if stored is not None:
+        expect(flat(lines.GetPoints().GetData()) == stored(frame, "walls"), where, "walls stand elsewhere")
 
 
 def check(name, reader, path, frames, stored):
@@ -58,11 +85,14 @@ def check(name, reader, path, frames, stored):
     reader.UpdateInformation()
     times = reader.GetOutputInformation(0).Get(pipeline.TIME_STEPS()) or ()
     expect(list(times) == [frame[0] for frame in frames], name, "shows the times", times)
-    for k, (time, points, arrays) in enumerate(frames):
+    for k, (time, points, arrays, walls) in enumerate(frames):
         reader.UpdateTimeStep(time)
         data = reader.GetOutputDataObject(0)
         where = "%s, frame %d:" % (name, k)
-        expect(data.GetNumberOfPoints() == points, where, data.GetNumberOfPoints(), "points, not", points)
+        all_points = points + (walls[0] if walls else 0)
+        expect(data.GetNumberOfPoints() == all_points, where, data.GetNumberOfPoints(), "points, not", all_points)
+        if walls:
+            check_walls(data, walls, k, where, stored)
         if points == 0:
             continue
         while data.IsA("vtkMultiBlockDataSet"):
@@ -97,6 +127,8 @@ def stored_values(hdf5_path):
     elements = hdf5["particles/all"]
 
     def stored(frame, array):
+        if array == "walls":
+            return hdf5["frames/%06d/%06d/walls" % (frame - frame % 256, frame)][()].ravel().tolist()
         element = elements["position" if array is None else array]
         return (element["value"][frame] if isinstance(element, h5py.Group) else element[()]).ravel().tolist()
 

@@ -28,9 +28,10 @@ except ImportError:
     if __name__ == "__main__" and os.path.realpath(sys.executable) != os.path.realpath(system) and os.path.exists(system):
         os.execv(system, [system, *sys.argv])
 
-# What there is to go wrong: the schemes; plates that move by tables, by the host, under loads; periods, side walls, retries.
+# What there is to go wrong: the schemes; plates that move by tables, by the host, under loads, that turn; periods, side walls,
+# retries.
 SCENES = ["default", "implicit", "regularized", "paper", "paper_local", "periodic", "driven", "paper_driven", "loaded",
-          "channel", "retry"]
+          "channel", "retry", "turning"]
 DIVERGING = ["diverge", "diverge_periodic"]
 END = 90
 

@@ -30,6 +30,8 @@ inline const std::vector<FrameField> fields = {{"id", 1, true, true, nullptr},
                                                {"pressure", 1, false, false, "Pa"},
                                                {"column", 1, true, true, ""}};
 
+constexpr double sample_spacing = 0.0025; // m
+
 // Component c (position 0 and 1, velocity 2 and 3, pressure 4) of particle k in a frame.
 inline double sample(int c, int64_t frame, int64_t k) {
     if (c == 4 && k == 0)
@@ -43,6 +45,19 @@ inline double sample_time(int64_t frame) {
     return static_cast<double>(frame) / 3;
 }
 
+// Two plates, one of them a line: they move between one frame and the next, but not before each third.
+inline gp::io::WallLines sample_walls() {
+    return {{0, 0, 1, 1, 1}, {0, 1, 2, 3, 3, 4}};
+}
+inline std::vector<double> sample_wall_points(int64_t frame) {
+    std::vector<double> points;
+    for (int k = 0; k < 5; ++k) {
+        const double moved = static_cast<double>(frame - frame % 3);
+        points.insert(points.end(), {0.1 * k + moved, 0.3 * k - moved, 0});
+    }
+    return points;
+}
+
 // A result file with sample values.
 class SampleFile {
 public:
@@ -53,7 +68,8 @@ public:
             id[k] = static_cast<double>(k);
             column[k] = static_cast<double>(k % 3);
         }
-        const FrameHeader header{n, 0.0025, {0, -9.81}, false, "1.2.3", {{"cfl", 0.25}, {"spacing", 0.5}}};
+        FrameHeader header{n, sample_spacing, {0, -9.81}, false, "1.2.3", {{"cfl", 0.25}, {"spacing", 0.5}}};
+        header.walls = sample_walls();
         file = std::make_unique<FrameFile>(path, header, fields, std::vector<const double *>{id.data(), column.data()},
                                            compression, single);
     }
@@ -66,7 +82,7 @@ public:
                 values[static_cast<size_t>(c)][k] = sample(c, t, static_cast<int64_t>(k));
             components.push_back(values[static_cast<size_t>(c)].data());
         }
-        file->write(10 * t, sample_time(t), components);
+        file->write(10 * t, sample_time(t), components, {}, sample_wall_points(t));
     }
     void write(int frames) {
         while (frames-- > 0)
@@ -178,12 +194,19 @@ inline std::string check_frames(const std::string &path, int64_t n, int64_t at_l
     *frames = static_cast<int64_t>(time.size());
     if (*frames < at_least || step.size() < time.size())
         return "only " + std::to_string(*frames) + " of " + std::to_string(at_least) + " frames";
-    const auto same = [&](double stored, double expected) {
+    const auto same = [&](bool position, double stored, double expected) {
+        if (single && position)
+            return std::abs(stored - expected) <= 1e-5 * sample_spacing;
         return stored == (single ? static_cast<double>(static_cast<float>(expected)) : expected);
     };
     for (int64_t t = 0; t < *frames; ++t)
         if (time[static_cast<size_t>(t)] != sample_time(t) || step[static_cast<size_t>(t)] != 10 * t)
             return "wrong time or step " + std::to_string(t);
+    if (r.integers("/walls/plate") != sample_walls().plate || r.integers("/walls/segments") != sample_walls().segments)
+        return "wrong walls";
+    for (int64_t t = 0; t < *frames; t += t % view_step == 0 || t + 2 >= *frames ? 1 : view_step - t % view_step)
+        if (r.numbers(view(t, "walls")) != sample_wall_points(t))
+            return "the walls stand wrongly in frame " + std::to_string(t);
     int c = 0;
     for (const FrameField &field : fields) {
         if (field.constant)
@@ -201,7 +224,8 @@ inline std::string check_frames(const std::string &path, int64_t n, int64_t at_l
             for (int64_t j = 0; j < n * width; ++j) {
                 const double value = all[static_cast<size_t>(t * n * width + j)];
                 const double expected = j % width == 2 ? 0 : sample(c + static_cast<int>(j % width), t, j / width);
-                if (!same(value, expected) || (look && one[static_cast<size_t>(j)] != value))
+                if (!same(std::string(field.name) == "position", value, expected) ||
+                    (look && one[static_cast<size_t>(j)] != value))
                     return "wrong value in frame " + std::to_string(t) + " of " + field.name;
             }
         }

@@ -139,7 +139,7 @@ TEST(Ghosts, FillACornerOnceAndOnlyInReach) {
             const int32_t g = world.walls.ghost_of_contact[k];
             EXPECT_TRUE(
                 seen.insert({std::round(2 * world.walls.ghost_x[g]), std::round(2 * world.walls.ghost_y[g])}).second);
-            EXPECT_NE(contact.plate, 2);
+            EXPECT_NE(contact.facet, 2);
         }
     std::size_t expected = 0;
     for (int i = -10; i < 10; ++i)

@@ -90,6 +90,7 @@ typedef struct gp_material {
     double mu_s;
     double mu_2;
     double i0;
+    double k0;
 } gp_material;
 
 gp_status gp_material_init(gp_material *material, size_t size);
@@ -135,6 +136,14 @@ typedef struct gp_plate {
     const double *knot_y;
     double normal_pressure;
     double mass_per_length;
+    int64_t n_points;
+    const double *point_x;
+    const double *point_y;
+    double pivot_x;
+    double pivot_y;
+    double omega;
+    const double *knot_angle;
+    double surface_velocity;
 } gp_plate;
 
 gp_status gp_plate_init(gp_plate *plate, size_t size);
@@ -154,6 +163,10 @@ gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const doubl
 gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 
 gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy);
+
+gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
+
+gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
 
 gp_status gp_step(gp_sim *sim, int64_t n);
 
@@ -280,9 +293,20 @@ typedef struct gp_state {
     double centre_y;
     double detached;
     double volume_drift;
+    double gravity_x;
+    double gravity_y;
 } gp_state;
 
+enum {
+    GP_STATE_DEPOSIT = 1,
+    GP_STATE_MARKS = 2,
+    GP_STATE_DRIFT = 4,
+    GP_STATE_ALL = 7
+};
+
 gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state);
 
 gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step);
 
@@ -299,6 +323,9 @@ typedef struct gp_load {
     double dy;
     double impulse_x;
     double impulse_y;
+    double torque_pivot;
+    double angle;
+    double impulse_torque;
 } gp_load;
 
 gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load);

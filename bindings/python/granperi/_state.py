@@ -69,6 +69,8 @@ class State:
     centre_y: float
     detached: float
     volume_drift: float
+    gravity_x: float
+    gravity_y: float
 
     @property
     def quantiles(self) -> dict[float, float]:
@@ -86,10 +88,10 @@ MARKS = {int(name[3:]) / 100: name for name in
 _STATE_NAMES = tuple(field.name for field in dataclasses.fields(State))
 
 
-def read_state(sim) -> State:
+def read_state(sim, parts: int = lib.GP_STATE_ALL) -> State:
     struct = ffi.new("gp_state *")
     struct.struct_size = ffi.sizeof("gp_state")
-    check(lib.gp_get_state(sim, struct))
+    check(lib.gp_get_state_parts(sim, parts, struct))
     values = {name: getattr(struct, name) for name in _STATE_NAMES}
     values["at_rest"] = bool(values["at_rest"])
     values["dt_reason"] = StepLimit(values["dt_reason"])
@@ -112,8 +114,9 @@ def read_clock(sim) -> Clock:
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """Load on a plate over the last step: fx, fy [N/m], torque about its end 0 [N]; its displacement dx, dy [m] and the
-    impulse_x, impulse_y [N s/m] since the start."""
+    """Load on a plate over the last step: fx, fy [N/m], torque about its first point [N] and torque_pivot about its pivot [N],
+    counter-clockwise; since the start its displacement dx, dy [m] and angle [rad], and the integrals over time impulse_x,
+    impulse_y [N s/m] and impulse_torque [N s] (of torque_pivot)."""
 
     fx: float
     fy: float
@@ -122,6 +125,9 @@ class Load:
     dy: float
     impulse_x: float
     impulse_y: float
+    torque_pivot: float
+    angle: float
+    impulse_torque: float
 
 
 _LOAD_NAMES = tuple(field.name for field in dataclasses.fields(Load))

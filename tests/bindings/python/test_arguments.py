@@ -88,6 +88,9 @@ def test_running(value):
         tried(lambda: sim.step(value))
         tried(lambda: sim.set_plate_velocity(0, value, 0))
         tried(lambda: sim.set_plate_velocity(value, 0, 0))
+        tried(lambda: sim.set_gravity(value, -9.81))
+        tried(lambda: sim.set_gravity(0, value))
+        sim.set_gravity(0, -9.81)
         tried(lambda: sim.set_callback(value))
         tried(lambda: sim.set_callback(len, value))
         tried(lambda: sim.frames(value, value))
@@ -109,7 +112,8 @@ def test_scene_texts(text):
     tried(lambda: granperi.Scene.parse(text))
 
 
-keys = st.sampled_from(["config", "run", "material", "column", "plate", "floor", "wall", "gate", "particles", "name", "x"])
+keys = st.sampled_from(["config", "run", "material", "column", "plate", "floor", "wall", "gate", "particles", "name", "x",
+                        "wall_line", "points", "file", "closed"])
 
 
 @given(kind=keys, values=st.dictionaries(keys | st.sampled_from(granperi.Plate.names()), array, max_size=3))

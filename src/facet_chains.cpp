@@ -1,4 +1,4 @@
-#include "plate_chains.hpp"
+#include "facet_chains.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,29 +18,29 @@ double turn_between(const Segment &a, const Segment &b) {
 } // namespace
 
 // Chains follow from where the plates are, and change with it alone unless a host drives them.
-bool PlateChains::are_where_they_were(const std::vector<Plate> &plates, const std::vector<PlateImage> &images) {
-    const auto same = [](const PlateImage &image, const Segment &segment) {
+bool FacetChains::are_where_they_were(const std::vector<Plate> &plates, const std::vector<FacetImage> &images) {
+    const auto same = [](const FacetImage &image, const Segment &segment) {
         return image.segment.origin == segment.origin && image.segment.tangent == segment.tangent;
     };
     if (images.size() == segments_.size() && std::equal(images.begin(), images.end(), segments_.begin(), same) &&
         std::none_of(plates.begin(), plates.end(), [](const Plate &plate) { return plate.driven(); }))
         return true;
     segments_.clear();
-    for (const PlateImage &image : images)
+    for (const FacetImage &image : images)
         segments_.push_back(image.segment);
     return false;
 }
 
-void PlateChains::find(const std::vector<Plate> &plates, const std::vector<PlateImage> &images, double reach,
-                       double spacing, bool may_join) {
+void FacetChains::find(const std::vector<Plate> &plates, const std::vector<Facet> &facets,
+                       const std::vector<FacetImage> &images, double reach, double spacing, bool may_join) {
     if (are_where_they_were(plates, images))
         return;
     after_.assign(images.size(), -1);
     before_.assign(images.size(), -1);
-    links_.assign(plates.size(), {});
+    links_.assign(facets.size(), {});
     joints_.clear();
     if (may_join) {
-        find_joints(images, spacing);
+        find_joints(facets, images, spacing);
         for (Joint &at : joints_) {
             at.together = plates[at.plate_before].moves_with(plates[at.plate_after]);
             if (at.together) {
@@ -51,18 +51,18 @@ void PlateChains::find(const std::vector<Plate> &plates, const std::vector<Plate
         cut_bulges(images, reach);
         for (std::size_t a = 0; a < images.size(); ++a)
             if (after_[a] >= 0) {
-                links_[images[a].plate].after = images[after_[a]].plate;
-                links_[images[after_[a]].plate].before = images[a].plate;
+                links_[images[a].facet].after = images[after_[a]].facet;
+                links_[images[after_[a]].facet].before = images[a].facet;
             }
     }
     any_ = std::any_of(after_.begin(), after_.end(), [](int32_t k) { return k >= 0; });
-    number_plates();
+    number_facets();
     line_up(images);
 }
 
 // Where one plate alone ends and one alone begins, without a sharp turn. The two sides of a gate, drawn to and fro, have
 // beginnings and ends at the same places: what would turn back does not count.
-void PlateChains::find_joints(const std::vector<PlateImage> &images, double spacing) {
+void FacetChains::find_joints(const std::vector<Facet> &facets, const std::vector<FacetImage> &images, double spacing) {
     const double meet = joint * spacing;
     const auto x_of = [&](int32_t k) { return images[k].segment.origin.x(); };
     by_x_.resize(images.size());
@@ -79,7 +79,7 @@ void PlateChains::find_joints(const std::vector<PlateImage> &images, double spac
                                       [&](int32_t k, double x) { return x_of(k) < x; });
         int32_t next = -1, departures = 0;
         for (; found != by_x_.end() && x_of(*found) <= end.x() + meet; ++found) {
-            const PlateImage &other = images[*found];
+            const FacetImage &other = images[*found];
             if (other.before > 0 || *found == static_cast<int32_t>(a) || (other.segment.origin - end).norm() > meet ||
                 std::abs(turn_between(s, other.segment)) > largest_turn)
                 continue;
@@ -88,7 +88,8 @@ void PlateChains::find_joints(const std::vector<PlateImage> &images, double spac
             next = *found;
         }
         if (departures == 1)
-            joints_.push_back({static_cast<int32_t>(a), next, images[a].plate, images[next].plate, false});
+            joints_.push_back({static_cast<int32_t>(a), next, facets[images[a].facet].plate,
+                               facets[images[next].facet].plate, false});
     }
     joints_.erase(
         std::remove_if(joints_.begin(), joints_.end(), [&](const Joint &at) { return arrivals_[at.after] > 1; }),
@@ -96,7 +97,7 @@ void PlateChains::find_joints(const std::vector<PlateImage> &images, double spac
 }
 
 // A wall that bulges sharply has no inside for ghosts to be seen from all sides.
-void PlateChains::cut_bulges(const std::vector<PlateImage> &images, double reach) {
+void FacetChains::cut_bulges(const std::vector<FacetImage> &images, double reach) {
     for (std::size_t a = 0; a < images.size(); ++a) {
         double way = 0, bulge = 0;
         auto k = static_cast<int32_t>(a);
@@ -115,7 +116,7 @@ void PlateChains::cut_bulges(const std::vector<PlateImage> &images, double reach
     }
 }
 
-void PlateChains::number_plates() {
+void FacetChains::number_facets() {
     number_.resize(links_.size());
     std::iota(number_.begin(), number_.end(), 0);
     const auto first_of = [&](int32_t p) {
@@ -132,7 +133,7 @@ void PlateChains::number_plates() {
         number_[p] = first_of(static_cast<int32_t>(p));
 }
 
-void PlateChains::line_up(const std::vector<PlateImage> &images) {
+void FacetChains::line_up(const std::vector<FacetImage> &images) {
     chains_.clear();
     members_.clear();
     chain_of_image_.assign(images.size(), -1);
@@ -144,10 +145,10 @@ void PlateChains::line_up(const std::vector<PlateImage> &images) {
         while (before_[first] >= 0 && before_[first] != start)
             first = before_[first];
         const bool closed = before_[first] >= 0;
-        Chain chain{number_[images[a].plate], static_cast<int32_t>(members_.size()), 0, 0};
+        Chain chain{number_[images[a].facet], static_cast<int32_t>(members_.size()), 0, 0};
         for (int32_t k = closed ? start : first; k >= 0 && chain_of_image_[k] < 0; k = after_[k]) {
             const auto count = static_cast<int32_t>(members_.size()) - chain.begin;
-            if (chain.repeats == 0 && count > 0 && images[k].plate == images[members_[chain.begin].image].plate)
+            if (chain.repeats == 0 && count > 0 && images[k].facet == images[members_[chain.begin].image].facet)
                 chain.repeats = count;
             chain_of_image_[k] = 0;
             members_.push_back({k, after_[k] < 0 ? 0.0 : turn_between(images[k].segment, images[after_[k]].segment)});
@@ -165,7 +166,7 @@ void PlateChains::line_up(const std::vector<PlateImage> &images) {
             chain_of_image_[members_[m].image] = static_cast<int32_t>(c);
 }
 
-bool PlateChains::stand(const std::vector<Plate> &plates) const {
+bool FacetChains::stand(const std::vector<Plate> &plates) const {
     return std::all_of(joints_.begin(), joints_.end(), [&](const Joint &at) {
         const Plate &a = plates[at.plate_before], &b = plates[at.plate_after];
         return (!a.driven() && !b.driven()) || a.moves_with(b) == at.together;
@@ -173,7 +174,7 @@ bool PlateChains::stand(const std::vector<Plate> &plates) const {
 }
 
 // What a row of places at one depth behind a chain is made of.
-struct PlateChains::Row {
+struct FacetChains::Row {
     const Chain &chain;
     double depth, step; // m
     int64_t layers;
@@ -192,12 +193,12 @@ struct PlateChains::Row {
     }
 };
 
-bool PlateChains::find_reaches(const Chain &chain, const std::vector<PlateImage> &images, const Box &box,
+bool FacetChains::find_reaches(const Chain &chain, const std::vector<FacetImage> &images, const Box &box,
                                double radius) {
     reaches_.clear();
     bool any = false;
     for (int32_t m = chain.begin; m < chain.end; ++m) {
-        const PlateImage &image = images[members_[m].image];
+        const FacetImage &image = images[members_[m].image];
         Reach reach{0, 0, image.near};
         if (image.near) {
             double low = INFINITY, high = -INFINITY, near = INFINITY;
@@ -215,7 +216,7 @@ bool PlateChains::find_reaches(const Chain &chain, const std::vector<PlateImage>
     return any;
 }
 
-void PlateChains::add_row(const Row &row, const std::vector<PlateImage> &images, std::vector<WallPlace> &places) const {
+void FacetChains::add_row(const Row &row, const std::vector<FacetImage> &images, std::vector<WallPlace> &places) const {
     const Chain &chain = row.chain;
     const int32_t count = chain.end - chain.begin;
     const bool closed = chain.repeats == count;
@@ -236,7 +237,7 @@ void PlateChains::add_row(const Row &row, const std::vector<PlateImage> &images,
             row.each(std::max(from, reaches_[m].low) - offset, std::min(to, reaches_[m].high) - offset, [&](double at) {
                 const Vector place = s.origin + (at + offset) * s.tangent - row.depth * s.normal;
                 places.push_back(
-                    {image, at + offset, row.depth, place.x(), place.y(), s.normal.x(), s.normal.y(), row.depth});
+                    {image, at + offset, row.depth, place.x(), place.y(), s.normal.x(), s.normal.y(), row.depth, 0});
             });
         }
         way += end - begin;
@@ -255,13 +256,13 @@ void PlateChains::add_row(const Row &row, const std::vector<PlateImage> &images,
                 const Vector place = s.origin + s.length * s.tangent - row.depth * n;
                 const Segment &own = images[members[mine].image].segment;
                 places.push_back({members[mine].image, own.along(place), -own.distance(place), place.x(), place.y(),
-                                  n.x(), n.y(), row.depth});
+                                  n.x(), n.y(), row.depth, own.tangent.dot(n)});
             });
         way += arc;
     }
 }
 
-void PlateChains::add_places(const Chain &chain, const std::vector<PlateImage> &images, const Box &box, double radius,
+void FacetChains::add_places(const Chain &chain, const std::vector<FacetImage> &images, const Box &box, double radius,
                              double spacing, std::vector<WallPlace> &places) {
     if (!find_reaches(chain, images, box, radius))
         return;
@@ -282,7 +283,7 @@ void PlateChains::add_places(const Chain &chain, const std::vector<PlateImage> &
     }
 }
 
-int64_t PlateChains::bytes() const {
+int64_t FacetChains::bytes() const {
     const auto of = [](const auto &vector) {
         return static_cast<int64_t>(vector.capacity() * sizeof(typename std::decay_t<decltype(vector)>::value_type));
     };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "plate_chains.hpp"
+#include "facet_chains.hpp"
 
 using namespace gp;
 
@@ -16,24 +16,26 @@ const double pi = std::acos(-1.0);
 // Plates that stand where they are drawn.
 struct Drawing {
     PlateSpec &add(double x0, double y0, double x1, double y1) {
-        specs.push_back(
-            {Segment(x0, y0, x1, y1), Vector(x1, y1), GP_WALL_NO_SLIP, 0, Vector::Zero(), {}, Vector::Zero(), 0, 0});
+        specs.push_back(PlateSpec({{x0, y0}, {x1, y1}}));
         return specs.back();
     }
     void line(const std::vector<Vector> &points) {
         for (std::size_t k = 0; k + 1 < points.size(); ++k)
             add(points[k].x(), points[k].y(), points[k + 1].x(), points[k + 1].y());
     }
-    PlateChains &find(double period = 0) {
+    FacetChains &find(double period = 0) {
         plates.clear();
+        facets.clear();
         images.clear();
-        for (const PlateSpec &spec : specs)
+        for (const PlateSpec &spec : specs) {
+            facets.push_back({&spec, static_cast<int32_t>(plates.size()), 0, spec.segments[0]});
             plates.emplace_back(spec);
+        }
         for (std::size_t p = 0; p < specs.size(); ++p)
             for (const int side : {0, 1, -1})
                 if (const double shift = side * period; period > 0 || side == 0)
-                    images.push_back({specs[p].segment.moved({shift, 0}), static_cast<int32_t>(p), shift, 0, true});
-        chains.find(plates, images, reach, 1, true);
+                    images.push_back({specs[p].segments[0].moved({shift, 0}), static_cast<int32_t>(p), shift, 0, true});
+        chains.find(plates, facets, images, reach, 1, true);
         return chains;
     }
     // The number of each plate's chain.
@@ -47,14 +49,15 @@ struct Drawing {
     // Places behind all chains within reach of a box.
     std::vector<WallPlace> places(const Box &box) {
         std::vector<WallPlace> found;
-        for (const PlateChains::Chain &chain : chains.all())
+        for (const FacetChains::Chain &chain : chains.all())
             chains.add_places(chain, images, box, reach, 1, found);
         return found;
     }
     std::deque<PlateSpec> specs;
     std::vector<Plate> plates;
-    std::vector<PlateImage> images;
-    PlateChains chains;
+    std::vector<Facet> facets;
+    std::vector<FacetImage> images;
+    FacetChains chains;
 };
 
 using Numbers = std::vector<int32_t>;
@@ -73,7 +76,7 @@ double nearest_other(const std::vector<WallPlace> &places, std::size_t k) {
 
 } // namespace
 
-TEST(PlateChains, JoinWhatMeetsEndToEnd) {
+TEST(FacetChains, JoinWhatMeetsEndToEnd) {
     Drawing d;
     d.add(0, 0, -10, 0);        // 0, 1: out of order
     d.add(20, 0, 10, 0);        // begins the line
@@ -87,7 +90,7 @@ TEST(PlateChains, JoinWhatMeetsEndToEnd) {
     EXPECT_TRUE(d.chains.any());
 }
 
-TEST(PlateChains, BreakAtSharpTurnsAndBranches) {
+TEST(FacetChains, BreakAtSharpTurnsAndBranches) {
     const auto turned = [](double degrees) { // towards the body or the material
         Drawing d;
         const Vector end = on_circle(10, 0.5 + degrees / 360);
@@ -117,7 +120,7 @@ TEST(PlateChains, BreakAtSharpTurnsAndBranches) {
     EXPECT_EQ(gate.numbers(), (Numbers{0, 0, 2, 2}));
 }
 
-TEST(PlateChains, BreakWhereTheyBulgeSharplyWithinAHorizon) {
+TEST(FacetChains, BreakWhereTheyBulgeSharplyWithinAHorizon) {
     // A quarter of a circle towards the material from 9 plates of 10 degrees: with a radius of 2 it is a corner, with one of 20
     // a curve. As a hollow it is a curve in both.
     const auto count = [](double radius, bool bulge) {
@@ -135,20 +138,36 @@ TEST(PlateChains, BreakWhereTheyBulgeSharplyWithinAHorizon) {
     EXPECT_EQ(count(20, false), 1u);
 }
 
-TEST(PlateChains, MoveTogether) {
+TEST(FacetChains, MoveTogether) {
     const auto pair = [](const auto &change) {
         Drawing d;
         d.line({{10, 0}, {0, 0}, {-10, 0}});
         change(d.specs[0], d.specs[1]);
         return d.numbers();
     };
-    const MotionTable lift{{0, 1}, {0, 0}, {0, 2}}, later{{0, 2}, {0, 0}, {0, 2}};
-    EXPECT_EQ(pair([](PlateSpec &a, PlateSpec &b) { a.velocity = b.velocity = {1, 2}; }), (Numbers{0, 0}));
-    EXPECT_EQ(pair([](PlateSpec &a, PlateSpec &) { a.velocity = {1, 2}; }), (Numbers{0, 1}));
+    const MotionTable lift{{0, 1}, {0, 0}, {0, 2}, {}}, later{{0, 2}, {0, 0}, {0, 2}, {}},
+        swing{{0, 1}, {0, 0}, {0, 2}, {0, 1}};
+    EXPECT_EQ(pair([](PlateSpec &a, PlateSpec &b) {
+                  a.motion.velocity = b.motion.velocity = {1, 2};
+              }),
+              (Numbers{0, 0}));
+    EXPECT_EQ(pair([](PlateSpec &a, PlateSpec &) { a.motion.velocity = {1, 2}; }), (Numbers{0, 1}));
     EXPECT_EQ(pair([&](PlateSpec &a, PlateSpec &b) { a.table = b.table = lift; }), (Numbers{0, 0}));
     EXPECT_EQ(pair([&](PlateSpec &a, PlateSpec &b) {
                   a.table = lift;
                   b.table = later;
+              }),
+              (Numbers{0, 1}));
+    EXPECT_EQ(pair([](PlateSpec &a, PlateSpec &b) { a.motion.omega = b.motion.omega = 1; }), (Numbers{0, 0}));
+    EXPECT_EQ(pair([](PlateSpec &a, PlateSpec &b) {
+                  a.motion.omega = b.motion.omega = 1;
+                  b.pivot = {0, 1};
+              }),
+              (Numbers{0, 1}));
+    EXPECT_EQ(pair([&](PlateSpec &a, PlateSpec &b) { a.table = b.table = swing; }), (Numbers{0, 0}));
+    EXPECT_EQ(pair([&](PlateSpec &a, PlateSpec &b) {
+                  a.table = b.table = swing;
+                  b.pivot = {0, 1};
               }),
               (Numbers{0, 1}));
     EXPECT_EQ(pair([](PlateSpec &a, PlateSpec &b) { a.load = b.load = 100; }), (Numbers{0, 1}));
@@ -159,24 +178,24 @@ TEST(PlateChains, MoveTogether) {
               (Numbers{0, 0}));
 }
 
-TEST(PlateChains, NoticeThatOneIsDrivenAway) {
+TEST(FacetChains, NoticeThatOneIsDrivenAway) {
     Drawing d;
     d.line({{10, 0}, {0, 0}, {-10, 0}});
     d.find();
     EXPECT_TRUE(d.chains.stand(d.plates));
-    d.plates[0].drive(0, {1, 0});
+    d.plates[0].drive(0, {{1, 0}, 0});
     EXPECT_FALSE(d.chains.stand(d.plates));
-    d.plates[1].drive(0, {1, 0});
+    d.plates[1].drive(0, {{1, 0}, 0});
     EXPECT_TRUE(d.chains.stand(d.plates));
-    d.plates[1].drive(1, {0, 0});
-    d.chains.find(d.plates, d.images, reach, 1, true);
+    d.plates[1].drive(1, {{0, 0}, 0});
+    d.chains.find(d.plates, d.facets, d.images, reach, 1, true);
     EXPECT_NE(d.chains.chain_of(0).number, d.chains.chain_of(1).number);
     EXPECT_TRUE(d.chains.stand(d.plates));
-    d.plates[0].drive(1, {0, 0}); // together again
+    d.plates[0].drive(1, {{0, 0}, 0}); // together again
     EXPECT_FALSE(d.chains.stand(d.plates));
 }
 
-TEST(PlateChains, StandOnTheLatticeOfOnePlate) {
+TEST(FacetChains, StandOnTheLatticeOfOnePlate) {
     const Box box{-8, 8, 0, 5};
     const auto sorted = [&](const std::vector<Vector> &points) {
         Drawing d;
@@ -195,7 +214,7 @@ TEST(PlateChains, StandOnTheLatticeOfOnePlate) {
     EXPECT_EQ(sorted({{20, 0}, {2.3, 0}, {1.9, 0}, {-7.05, 0}, {-20, 0}}), one);
 }
 
-TEST(PlateChains, FillBendsEvenly) {
+TEST(FacetChains, FillBendsEvenly) {
     // Behind a hollow rows turn with a fan, behind a bulge they are cut at the bisector: nowhere a hole or a heap.
     for (const double turn : {40.0, 15.0, -15.0, -40.0}) {
         Drawing d;
@@ -207,7 +226,7 @@ TEST(PlateChains, FillBendsEvenly) {
             const WallPlace &p = places[k];
             const Vector at(p.x, p.y);
             double line = INFINITY;
-            for (const PlateImage &image : d.images)
+            for (const FacetImage &image : d.images)
                 line = std::min(line, image.segment.nearest(at));
             if (at.norm() < 6) {
                 EXPECT_NEAR(line, p.distance, 1e-9) << turn;
@@ -220,7 +239,7 @@ TEST(PlateChains, FillBendsEvenly) {
     }
 }
 
-TEST(PlateChains, CloseRingsWithoutASeam) {
+TEST(FacetChains, CloseRingsWithoutASeam) {
     for (const double sense : {-1.0, 1.0}) { // a drum, a solid
         Drawing d;
         std::vector<Vector> points;
@@ -242,7 +261,7 @@ TEST(PlateChains, CloseRingsWithoutASeam) {
     }
 }
 
-TEST(PlateChains, RepeatAcrossThePeriod) {
+TEST(FacetChains, RepeatAcrossThePeriod) {
     Drawing d; // 20.5 spacings long, with waves
     std::vector<Vector> points;
     for (int k = 8; k >= 0; --k)
