@@ -64,6 +64,7 @@ struct PlateSpec {
     double start_angle = 0;        // rad, the same of its turn
     double load = 0;               // Pa on its back, towards the material; 0: the motion is prescribed
     double mass = 0;               // kg/m2 of a loaded plate; 0: chosen with the constants
+    int32_t fluidity = GP_FLUIDITY_FREE;
 
     // What follows from the points.
     double length = 0;                   // m, of the line
@@ -98,6 +99,7 @@ struct MaterialConstants {
     double bulk_modulus; // rho0 c0^2, Pa
     ReturnMap map;
     Regularized law;
+    double cooperativity2, fluidity_time; // m2, (A d)^2; s, t0: of the granular fluidity
 };
 
 // What follows from the scene once it is complete.
@@ -124,6 +126,7 @@ struct Constants {
     double contrast_step;            // s, largest step that is stable where materials of different density meet
     double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     double elastic_penalty;          // the same inside the yield surface, over that
+    bool fluid;                      // a material in use has a fluidity
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
 };

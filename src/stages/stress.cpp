@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "lanes.hpp"
+#include "material/fluidity.hpp"
 #include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -13,7 +14,7 @@ namespace {
 // The materials of four particles.
 struct MaterialLanes {
     ReturnMapOf<Lanes> map;
-    Lanes density;
+    Lanes density, fluidity_time, is_fluid; // is_fluid: 1 or 0
 
     GP_INLINE void set(const Constants &c, const int32_t *column, const LanePlaces &places) {
         for (int l = 0; l < lane_count; ++l) {
@@ -23,6 +24,8 @@ struct MaterialLanes {
             map.rate_factor[l] = m.map.rate_factor;
             map.shear_modulus[l] = m.map.shear_modulus;
             density[l] = m.density;
+            fluidity_time[l] = m.fluidity_time;
+            is_fluid[l] = m.cooperativity2 > 0 ? 1.0 : 0.0;
         }
     }
 };
@@ -31,7 +34,21 @@ struct StressSums {
     double plastic, internal, damped; // W/m3 or J/m3, of a block
 };
 
-template <bool Penalty>
+// The factor by which the trial deviator shrinks by the granular fluidity, which it brings to the end of the step.
+GP_INLINE Lanes shrink_by_fluidity(const Particles &p, const MaterialLanes &material, const LanePlaces &places,
+                                   double dt, const Lanes &trial, const Lanes &pressure, const Lanes &rate,
+                                   Lanes &fluidity) {
+    const Lanes one = Lanes{} + 1.0, inertia = material.fluidity_time / dt;
+    const Lanes borne = choose(pressure > 0.0, pressure, one);
+    const Lanes under_pressure =
+        Fluidity::after(material.map, trial, borne, dt, inertia + places.load(p.fluid_pace.data()),
+                        inertia * places.load(p.fluidity.data()) + places.load(p.fluid_pull.data()));
+    fluidity =
+        material.is_fluid * choose(pressure > 0.0, under_pressure, Fluidity::without_pressure(material.map, rate));
+    return where(pressure > 0.0, one / (one + material.map.shear_modulus * dt / borne * fluidity));
+}
+
+template <bool Penalty, bool Fluid>
 GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     Particles &p = world.particles;
     const double dt = world.clock.dt;
@@ -57,7 +74,16 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         const DeviatorOf<Lanes> before = rotate(old, spin, dt);
         const Lanes stiff = 2.0 * map.shear_modulus;
         const DeviatorOf<Lanes> trial{before.xx + stiff * dt * dxx, before.xy + stiff * dt * dxy};
-        const Lanes shrink = map.shrink(equivalent_stress(trial), pressure, dt);
+        const int64_t last = first + lane_count < end ? first + lane_count : end;
+        Lanes shrink = map.shrink(equivalent_stress(trial), pressure, dt);
+        const auto is_fluid = material.is_fluid > 0.0;
+        if (Fluid) {
+            Lanes fluidity;
+            const Lanes by_fluidity = shrink_by_fluidity(p, material, places, dt, equivalent_stress(trial), pressure,
+                                                         2.0 * root(dxx * dxx + dxy * dxy), fluidity);
+            shrink = choose(is_fluid, by_fluidity, shrink);
+            places.store(p.fluidity.data(), last, fluidity);
+        }
         const DeviatorOf<Lanes> after{shrink * trial.xx, shrink * trial.xy};
 
         // Mean stress of the step times plastic strain (s_trial - s) / 2G; s:e = 2 (s_xx e_xx + s_xy e_xy).
@@ -73,9 +99,16 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         const Lanes viscosity = kinematic_viscosity * material.density;
         const Lanes viscous = -viscosity * divergence;
         const Lanes bulk = where(pressure > 0.0, choose(viscous > -pressure, viscous, -pressure));
-        const DeviatorOf<Lanes> drag{2.0 * viscosity * dxx, 2.0 * viscosity * dxy};
+        DeviatorOf<Lanes> drag{2.0 * viscosity * dxx, 2.0 * viscosity * dxy};
+        if (Fluid) { // there is no yield surface: what is left of the rate is elastic
+            const Lanes plastic_share = 2.0 * viscosity * (1.0 - shrink) / (stiff * dt);
+            drag.xx -= where(is_fluid, plastic_share * trial.xx);
+            drag.xy -= where(is_fluid, plastic_share * trial.xy);
+        }
         const DeviatorOf<Lanes> total{after.xx + drag.xx, after.xy + drag.xy};
-        const auto elastic = (shrink == 1.0) & (equivalent_stress(total) <= map.mu_s * pressure);
+        auto elastic = (shrink == 1.0) & (equivalent_stress(total) <= map.mu_s * pressure);
+        if (Fluid)
+            elastic = elastic | (is_fluid & (equivalent_stress(total) <= map.mu_2 * pressure));
         const DeviatorOf<Lanes> s{choose(elastic, total.xx, after.xx), choose(elastic, total.xy, after.xy)};
         damped += own * (where(elastic, 2.0 * (drag.xx * dxx + drag.xy * dxy)) - bulk * divergence);
         internal += own * (2.0 * (s.xx * dxx + s.xy * dxy) - (pressure + bulk) * divergence);
@@ -86,7 +119,6 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         Lanes cxy = axx * gxy + axy * gyy;
         Lanes cyx = axy * gxx + ayy * gxy;
         Lanes cyy = axy * gxy + ayy * gyy;
-        const int64_t last = first + lane_count < end ? first + lane_count : end;
         if (Penalty) {
             const Lanes stressed = where(pressure > 0.0, choose(elastic, Lanes{} + stiffer, Lanes{} + 1.0));
             const Lanes share = half_penalty * stressed;
@@ -116,18 +148,28 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
 }
 
 GP_MULTIVERSION void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<false>(world, one_material, begin, end, sums);
+    stress_rows<false, false>(world, one_material, begin, end, sums);
 }
 
 GP_MULTIVERSION void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<true>(world, one_material, begin, end, sums);
+    stress_rows<true, false>(world, one_material, begin, end, sums);
+}
+
+GP_MULTIVERSION void fluid_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+    stress_rows<false, true>(world, one_material, begin, end, sums);
+}
+
+GP_MULTIVERSION void fluid_penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+    stress_rows<true, true>(world, one_material, begin, end, sums);
 }
 
 } // namespace
 
 void stress(World &world) {
     Particles &p = world.particles;
-    const auto rows = world.constants.penalty > 0 ? penalty_rows : plain_rows;
+    const bool penalty = world.constants.penalty > 0;
+    const auto rows =
+        world.constants.fluid ? (penalty ? fluid_penalty_rows : fluid_rows) : (penalty ? penalty_rows : plain_rows);
     const std::vector<int32_t> &materials = world.constants.body_material;
     const bool one_material =
         std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });

@@ -99,7 +99,11 @@ constexpr double steepest_tangential = 0.5, normal_ratio = 0.25;
 
 bool at_yield(const World &world, int32_t i) {
     const Particles &p = world.particles;
-    return p.pressure[i] > 0 && world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
+    if (p.pressure[i] <= 0)
+        return false;
+    if (world.material_of(i).cooperativity2 > 0) // it yields at any stress
+        return p.fluidity[i] > 0;
+    return world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
 }
 
 // Is all that the ghost sees at yield?

@@ -73,10 +73,14 @@ void wall_friction(World &world) {
         const auto ratio_of = [&](double mu) {
             return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(*facet.spec, mu);
         };
+        const bool fluid = world.material_of(i).cooperativity2 > 0 && p.pressure[i] > 0;
         // The share of mu that acts along the plate depends on mu itself, weakly.
         double mu = law.mu_s;
-        for (int pass = 0; pass < 2; ++pass)
-            mu = friction_left(law, rate, std::abs(slip), once * ratio_of(mu) / std::max(mu, 1e-300), pressure);
+        for (int pass = 0; pass < 2; ++pass) {
+            const double per_mu = once * ratio_of(mu) / std::max(mu, 1e-300);
+            mu = fluid ? friction_left(law, p.fluidity[i], rate, std::abs(slip), per_mu)
+                       : friction_left(law, rate, std::abs(slip), per_mu, pressure);
+        }
         const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
         if (stop <= 0)
             continue;
