@@ -13,17 +13,29 @@ namespace gp::stages {
 
 namespace {
 
+// Where the particle was when the step began.
+Vector place_before(const World &world, const Contact &contact) {
+    const Particles &p = world.particles;
+    const int64_t i = contact.particle;
+    const double dt = world.clock.dt;
+    return world.walls.nearest_image(world.walls.facets[contact.facet].segment,
+                                     {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]});
+}
+
+double rate_per_slip_of(const World &world, const Contact &contact) {
+    return rate_per_slip(world.walls.facets[contact.facet].segment, place_before(world, contact),
+                         world.constants.spacing);
+}
+
 // Between surface and particle the mean rate is slip over distance, y; of a curved profile that is the rate at y/2. The gradient
 // that the particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and
 // the rate at the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. direction: 1 or -1, of the slip along the
 // tangent.
 SurfaceRate surface_rate(const World &world, const Contact &contact, double direction) {
-    const Particles &p = world.particles;
     const Constants &c = world.constants;
     const int64_t i = contact.particle;
     const Segment &s = world.walls.facets[contact.facet].segment;
-    const double dt = world.clock.dt;
-    const Vector at = world.walls.nearest_image(s, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was
+    const Vector at = place_before(world, contact);
     const double share = c.one_sided.share(s.distance(at) / c.horizon);
     const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
     return {(1 + share) * rate_per_slip(s, at, c.spacing), -share * inside};
@@ -74,11 +86,14 @@ void wall_friction(World &world) {
             return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(*facet.spec, mu);
         };
         const bool fluid = world.material_of(i).cooperativity2 > 0 && p.pressure[i] > 0;
+        // Between plate and particle: of the fluidity, and of the rate over the slip.
+        const double between = fluid ? (facet.spec->fluidity == GP_FLUIDITY_ZERO ? 0.5 : 1.0) * p.fluidity[i] : 0.0;
+        const SurfaceRate mean_rate{fluid ? rate_per_slip_of(world, contact) : 0.0, 0};
         // The share of mu that acts along the plate depends on mu itself, weakly.
         double mu = law.mu_s;
         for (int pass = 0; pass < 2; ++pass) {
             const double per_mu = once * ratio_of(mu) / std::max(mu, 1e-300);
-            mu = fluid ? friction_left(law, p.fluidity[i], rate, std::abs(slip), per_mu)
+            mu = fluid ? friction_left(law, between, mean_rate, std::abs(slip), per_mu)
                        : friction_left(law, rate, std::abs(slip), per_mu, pressure);
         }
         const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
