@@ -74,7 +74,7 @@ int main(int argc, char **argv) {
         {"incline_column", incline_column, 28, 10, 3}, {"silo", silo, 12, 0, 1.5},
     };
     const int n = (int)(sizeof cases / sizeof cases[0]);
-    choices c = {NAN, NAN, 0, NAN, 0};
+    choices c = {NAN, NAN, 0, NAN, 0, 0};
     double coulomb = 0;
     const bench_option options[] = {
         {"--rows", "spacings in the layer, the height of the column, the width of the silo [10, 20, 28, 12]",
@@ -84,6 +84,7 @@ int main(int argc, char **argv) {
         {"--end", "s, end of the run [depends on the case]", BENCH_NUMBER, &c.end, 1e-3, 1e4},
         {"--coulomb", "1: a floor with the Coulomb friction of the material, of layers that slide [0]", BENCH_WHOLE,
          &coulomb, 0, 1},
+        {"--bed", "m, thickness of the layer under the column [0]", BENCH_NUMBER, &c.bed, 0, 1},
     };
     int k = 0;
     example_program(argv[0]);

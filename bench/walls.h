@@ -16,6 +16,7 @@ typedef struct choices {
     double jitter;   /* spacings */
     double end;      /* s */
     int32_t coulomb; /* 1: the floor has the Coulomb friction of the material in place of a rough surface */
+    double bed;      /* m, thickness of a layer of the same grains under the column, that can be eroded */
 } choices;
 
 gp_config walls_config(const choices *c, double spacing);
@@ -36,7 +37,7 @@ void slide_inertial(const choices *c);
 void incline_start(const choices *c);
 /* The same, long: height and velocity of the surface, at four times. */
 void incline_shear(const choices *c);
-/* A column released on an incline, a wall behind it: where its mass comes to rest. */
+/* A column released on an incline or on a layer of its grains, a wall behind it: where its mass comes to rest. */
 void incline_column(const choices *c);
 /* A tall silo with rough walls whose floor sinks: friction of the walls, what the floor bears. */
 void silo(const choices *c);

@@ -10,13 +10,16 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static void add_column(gp_sim *sim, double width, double height, int32_t material) {
+static int32_t add_column(gp_sim *sim, double y_min, double width, double height, int32_t material) {
     gp_column column;
+    int32_t id;
     CHECK(gp_column_init(&column, sizeof column));
+    column.y_min = y_min;
     column.width = width;
     column.height = height;
     column.material = material;
-    CHECK(gp_add_column(sim, &column, NULL));
+    CHECK(gp_add_column(sim, &column, &id));
+    return id;
 }
 
 static int32_t add_plate(gp_sim *sim, double x0, double y0, double x1, double y1, int32_t friction, double vy) {
@@ -34,14 +37,19 @@ static int32_t add_plate(gp_sim *sim, double x0, double y0, double x1, double y1
 }
 
 void incline_column(const choices *c) {
-    const double width = 0.20, height = 0.14, interval = 0.05;
+    const double width = 0.20, height = 0.14, interval = 0.05,
+                 bed_length = 0.9; /* farther than it runs on 10 degrees */
     const gp_config config = walls_config(c, height / c->rows);
     gp_sim *sim;
     gp_state state;
-    double *x, t;
+    double *x, *columns, t;
+    int64_t k, own = 0;
+    int32_t column;
     CHECK(gp_create(&config, &sim));
     walls_add_beads(sim, 0.0007, 0);
-    add_column(sim, width, height, 1);
+    column = add_column(sim, c->bed, width, height, 1);
+    if (c->bed > 0)
+        add_column(sim, 0, bed_length, c->bed, 1);
     add_plate(sim, 10, 0, 0, 0, GP_WALL_NO_SLIP, 0);
     add_plate(sim, 0, 0, 0, 1, GP_WALL_FREE_SLIP, 0);
     for (t = interval; t < c->end + 0.5 * interval; t += interval) {
@@ -52,14 +60,19 @@ void incline_column(const choices *c) {
     }
     state = walls_state(sim);
     x = walls_field(sim, GP_FIELD_X, state.n_particles);
-    qsort(x, (size_t)state.n_particles, sizeof *x, ascending);
-    printf("x_90 %.5g m\n", x[(int64_t)(0.90 * (double)state.n_particles)]);
-    printf("x_98 %.5g m\n", x[(int64_t)(0.98 * (double)state.n_particles)]);
-    printf("tip %.5g m\n", state.x_right);
+    columns = walls_field(sim, GP_FIELD_COLUMN, state.n_particles);
+    for (k = 0; k < state.n_particles; ++k)
+        if (columns[k] == column)
+            x[own++] = x[k];
+    qsort(x, (size_t)own, sizeof *x, ascending);
+    printf("x_90 %.5g m\n", x[(int64_t)(0.90 * (double)own)]);
+    printf("x_98 %.5g m\n", x[(int64_t)(0.98 * (double)own)]);
+    printf("tip %.5g m\n", c->bed > 0 ? x[own - 1] : state.x_right);
     printf("detached %.5g of the mass\n", state.detached);
     printf("at_rest %d 1\n", state.at_rest);
     walls_print_cost(sim);
     free(x);
+    free(columns);
     gp_destroy(sim);
 }
 
@@ -74,7 +87,7 @@ void silo(const choices *c) {
     int k;
     CHECK(gp_create(&config, &sim));
     walls_add_beads(sim, 0.002, 0);
-    add_column(sim, width, height, 1);
+    add_column(sim, 0, width, height, 1);
     plates[0] = add_plate(sim, width, 0, 0, 0, GP_WALL_FREE_SLIP, -sinking);
     plates[1] = add_plate(sim, 0, -below, 0, 2 * height, GP_WALL_NO_SLIP, 0);
     plates[2] = add_plate(sim, width, 2 * height, width, -below, GP_WALL_NO_SLIP, 0);

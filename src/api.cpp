@@ -1,6 +1,7 @@
 // The only extern "C" file: each call guards against exceptions, checks its pointers, and delegates.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -25,6 +26,7 @@ struct gp_sim {
     // What views point to, and the last measured state; good while the epoch is the same.
     gp::Field<double> derived[15];
     gp_state state{};
+    uint32_t state_parts = 0;
     uint64_t state_epoch = std::numeric_limits<uint64_t>::max();
 };
 
@@ -116,6 +118,22 @@ template <class T> gp_status hand_out(T *target, T filled, const char *name) {
     filled.struct_size = size;
     std::memcpy(static_cast<void *>(target), &filled, std::min<std::size_t>(size, sizeof(T)));
     return GP_OK;
+}
+
+// Measures what has not been measured since the last step.
+gp_status hand_out_state(gp_sim *sim, uint32_t parts, gp_state *target) {
+    Sim &s = readable(sim);
+    if (sim->state_epoch != s.epoch()) {
+        sim->state = measure_sums(s.world());
+        sim->state_parts = 0;
+        sim->state_epoch = s.epoch();
+    }
+    measure_parts(s.world(), parts & ~sim->state_parts, sim->state);
+    sim->state_parts |= parts;
+    sim->state.wall_seconds = s.wall_seconds();
+    gp_state state = sim->state;
+    leave_out(GP_STATE_ALL & ~parts, state);
+    return hand_out(target, state, "gp_state");
 }
 
 void require_stations(int64_t n, const char *in_name, const double *in, const char *out_name, const double *out) {
@@ -262,6 +280,14 @@ gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, 
     });
 }
 
+gp_status gp_set_gravity(gp_sim *sim, double gx, double gy) {
+    return guard([&] {
+        require_simulation(sim);
+        sim->sim.set_gravity(gx, gy);
+        return GP_OK;
+    });
+}
+
 // -------------------------------------------------------------------------------------------------- running
 
 gp_status gp_step(gp_sim *sim, int64_t n) {
@@ -345,13 +371,21 @@ gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
 gp_status gp_get_state(gp_sim *sim, gp_state *state) {
     return guard([&] {
         require_pointer("state", state);
-        Sim &s = readable(sim);
-        if (sim->state_epoch != s.epoch()) {
-            sim->state = measure_state(s.world());
-            sim->state_epoch = s.epoch();
-        }
-        sim->state.wall_seconds = s.wall_seconds();
-        return hand_out(state, sim->state, "gp_state");
+        const uint32_t size = state->struct_size; // an older program's ends before what it does not know
+        return hand_out_state(sim,
+                              size <= offsetof(gp_state, x_left)  ? 0
+                              : size <= offsetof(gp_state, x_q01) ? GP_STATE_DEPOSIT
+                                                                  : GP_STATE_ALL,
+                              state);
+    });
+}
+
+gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state) {
+    return guard([&] {
+        require_pointer("state", state);
+        if (parts & ~static_cast<uint32_t>(GP_STATE_ALL))
+            throw make_error(GP_E_ARGUMENT, "parts = 0x%x: expected bits GP_STATE_... up to 0x%x", parts, GP_STATE_ALL);
+        return hand_out_state(sim, parts, state);
     });
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 
 #include "ledger.hpp"
 #include "stages/stages.hpp"
@@ -9,7 +11,7 @@
 
 namespace gp {
 
-gp_state measure_state(const World &world) {
+gp_state measure_sums(const World &world) {
     const Particles &p = world.particles;
     gp_state s{};
     s.struct_size = sizeof s;
@@ -57,28 +59,58 @@ gp_state measure_state(const World &world) {
     s.max_speed = std::sqrt(s.max_speed);
     s.rms_speed = p.count > 0 ? std::sqrt(speed2 / static_cast<double>(p.count)) : 0.0;
 
-    const std::vector<char> connected = connected_deposit(world);
-    const Surface surface(world, connected);
-    if (!surface.empty()) {
-        s.x_left = surface.left();
-        s.x_right = surface.right();
-        surface.peak(s.peak_x, s.peak_height);
-    }
-    const MassMarks marks = measure_mass(world, connected);
-    s.x_q01 = marks.quantile[0];
-    s.x_q05 = marks.quantile[1];
-    s.x_q25 = marks.quantile[2];
-    s.x_q50 = marks.quantile[3];
-    s.x_q75 = marks.quantile[4];
-    s.x_q95 = marks.quantile[5];
-    s.x_q99 = marks.quantile[6];
-    s.centre_x = marks.x;
-    s.centre_y = marks.y;
-    s.detached = marks.detached;
-    s.volume_drift = drift_of(world, measure_packing(world, Part::flowing));
+    const Vector centre = centre_of_mass(world);
+    s.centre_x = centre.x();
+    s.centre_y = centre.y();
     s.at_rest = is_at_rest(world, e.kinetic) ? 1 : 0;
     s.collisions = world.collisions;
     s.sound_speed = world.constants.sound_speed;
+    s.gravity_x = world.constants.gravity.x();
+    s.gravity_y = world.constants.gravity.y();
+    return s;
+}
+
+void measure_parts(const World &world, uint32_t parts, gp_state &s) {
+    if (parts & GP_STATE_DEPOSIT) {
+        const std::vector<char> connected = connected_deposit(world);
+        const Surface surface(world, connected);
+        if (!surface.empty()) {
+            s.x_left = surface.left();
+            s.x_right = surface.right();
+            surface.peak(s.peak_x, s.peak_height);
+        }
+        s.detached = detached_share(world, connected);
+    }
+    if (parts & GP_STATE_MARKS) {
+        const MassMarks marks = measure_marks(world);
+        s.x_q01 = marks[0];
+        s.x_q05 = marks[1];
+        s.x_q25 = marks[2];
+        s.x_q50 = marks[3];
+        s.x_q75 = marks[4];
+        s.x_q95 = marks[5];
+        s.x_q99 = marks[6];
+    }
+    if (parts & GP_STATE_DRIFT)
+        s.volume_drift = drift_of(world, measure_packing(world, Part::flowing));
+}
+
+void leave_out(uint32_t parts, gp_state &s) {
+    const auto forget = [](std::initializer_list<double *> values) {
+        for (double *value : values)
+            *value = std::numeric_limits<double>::quiet_NaN();
+    };
+    if (parts & GP_STATE_DEPOSIT)
+        forget({&s.x_left, &s.x_right, &s.peak_x, &s.peak_height, &s.detached});
+    if (parts & GP_STATE_MARKS)
+        forget({&s.x_q01, &s.x_q05, &s.x_q25, &s.x_q50, &s.x_q75, &s.x_q95, &s.x_q99});
+    if (parts & GP_STATE_DRIFT)
+        forget({&s.volume_drift});
+}
+
+gp_state measure_state(const World &world) {
+    gp_state s = measure_sums(world);
+    measure_parts(world, GP_STATE_ALL, s);
     return s;
 }
 

@@ -1,6 +1,7 @@
 // What a simulation can tell of itself. Everything here only reads.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -9,8 +10,13 @@
 
 namespace gp {
 
-// The whole of gp_state but for the wall-clock time.
-gp_state measure_state(const World &world);
+// gp_state but for the wall-clock time and the parts GP_STATE_...
+gp_state measure_sums(const World &world);
+// Measures parts, too.
+void measure_parts(const World &world, uint32_t parts, gp_state &state);
+// Sets them to NaN.
+void leave_out(uint32_t parts, gp_state &state);
+gp_state measure_state(const World &world); // with all parts
 
 // 1 for the particles of the connected deposit: the largest set in which each is within 1.6 spacings of another (of equal
 // sets the one with the smallest id).
@@ -48,14 +54,12 @@ private:
     std::vector<Segment> walls_;                  // that mirror some
 };
 
-// Where the mass lies.
-struct MassMarks {
-    double quantile[7]; // m: the share of mass_shares lies to the left
-    double x, y;        // m, centre of mass
-    double detached;    // share outside of the connected deposit
-};
-constexpr double mass_shares[7] = {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
-MassMarks measure_mass(const World &world, const std::vector<char> &connected);
+// Where the mass lies: x, m, that has these shares of it on its left.
+constexpr std::array<double, 7> mass_shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
+using MassMarks = std::array<double, mass_shares.size()>;
+MassMarks measure_marks(const World &world);
+Vector centre_of_mass(const World &world);
+double detached_share(const World &world, const std::vector<char> &connected); // outside of the connected deposit
 
 // Has the material come to rest, and what moves it? gp_state.at_rest in gp.h says what that means.
 bool is_at_rest(const World &world, double kinetic);

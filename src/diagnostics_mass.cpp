@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "diagnostics.hpp"
+#include "sort_by_x.hpp"
 
 namespace gp {
 
@@ -28,8 +29,7 @@ public:
             }
             masses_.push_back({x, mass});
         }
-        std::sort(masses_.begin(), masses_.end(),
-                  [](const Mass &a, const Mass &b) { return a.x != b.x ? a.x < b.x : a.mass < b.mass; });
+        sort_by_x(masses_, [](const Mass &a, const Mass &b) { return a.x != b.x ? a.x < b.x : a.mass < b.mass; });
         before_.reserve(masses_.size() + 1);
         before_.push_back(0);
         for (const Mass &m : masses_)
@@ -81,26 +81,39 @@ private:
 
 } // namespace
 
-MassMarks measure_mass(const World &world, const std::vector<char> &connected) {
+MassMarks measure_marks(const World &world) {
     MassMarks marks{};
+    if (world.particles.count == 0)
+        return marks;
+    const MassLeftOf mass(world);
+    for (std::size_t k = 0; k < marks.size(); ++k)
+        marks[k] = mass.mark(mass_shares[k]);
+    return marks;
+}
+
+Vector centre_of_mass(const World &world) {
     const Particles &p = world.particles;
     if (p.count == 0)
-        return marks;
-    double all = 0, apart = 0, x = 0, y = 0;
+        return Vector(0, 0);
+    double all = 0, x = 0, y = 0;
+    for (int64_t i = 0; i < p.count; ++i) {
+        const double mass = world.material_of(i).density * p.volume;
+        all += mass;
+        x += mass * (p.x[i] - p.x[0]);
+        y += mass * (p.y[i] - p.y[0]);
+    }
+    return {p.x[0] + x / all, p.y[0] + y / all};
+}
+
+double detached_share(const World &world, const std::vector<char> &connected) {
+    const Particles &p = world.particles;
+    double all = 0, apart = 0;
     for (int64_t i = 0; i < p.count; ++i) {
         const double mass = world.material_of(i).density * p.volume;
         all += mass;
         apart += connected[i] ? 0.0 : mass;
-        x += mass * (p.x[i] - p.x[0]);
-        y += mass * (p.y[i] - p.y[0]);
     }
-    marks.x = p.x[0] + x / all;
-    marks.y = p.y[0] + y / all;
-    marks.detached = apart / all;
-    const MassLeftOf mass(world);
-    for (std::size_t k = 0; k < std::size(mass_shares); ++k)
-        marks.quantile[k] = mass.mark(mass_shares[k]);
-    return marks;
+    return p.count > 0 ? apart / all : 0.0;
 }
 
 } // namespace gp

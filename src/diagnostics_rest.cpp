@@ -111,14 +111,14 @@ bool plates_move(const World &world, double energy) {
 } // namespace
 
 bool is_at_rest(const World &world, double kinetic) {
-    const double scale = std::max(world.ledger.initial, world.ledger.largest_kinetic);
+    const double scale = std::max(world.ledger.scale, world.ledger.largest_kinetic);
     const Constants &c = world.constants;
-    if (plates_move(world, rest_kinetic * scale))
-        return false;
-    if (world.clock.step == 0)
-        return kinetic == 0 && c.gravity.norm() == 0;
-    return kinetic <= rest_kinetic * scale && world.plastic_power * c.time_scale <= rest_plastic * scale &&
-           world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
+    const bool still = world.clock.step == 0
+                           ? kinetic == 0 && c.gravity.norm() == 0
+                           : kinetic <= rest_kinetic * scale &&
+                                 world.plastic_power * c.time_scale() <= rest_plastic * scale &&
+                                 world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
+    return still && !plates_move(world, rest_kinetic * scale); // in this order: plates_move looks at all particles
 }
 
 } // namespace gp

@@ -11,45 +11,83 @@ namespace {
 
 constexpr double link_distance = 1.6; // dl: a little more than the diagonal of the lattice
 
-int32_t root_of(std::vector<int32_t> &parent, int32_t i) {
-    while (parent[i] != i)
-        i = parent[i] = parent[parent[i]];
-    return i;
+// Sets of particles, each known by the first of its particles.
+class Sets {
+public:
+    explicit Sets(int64_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+    int32_t root_of(int32_t i) {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    // Without the way to the root: true tells that i is in the root's set, false tells nothing.
+    bool are_near(int32_t i, int32_t root) const { return parent_[i] == root; }
+    int32_t unite(int32_t i, int32_t j) { // the new root
+        i = root_of(i);
+        j = root_of(j);
+        return parent_[std::max(i, j)] = std::min(i, j);
+    }
+    // The root of the set with the most particles; of equal ones that with the smallest id.
+    int32_t largest(const Field<int64_t> &id) {
+        std::vector<int32_t> size(parent_.size(), 0);
+        std::vector<int64_t> smallest(parent_.size(), INT64_MAX);
+        int32_t found = 0;
+        for (std::size_t i = 0; i < parent_.size(); ++i) {
+            const int32_t root = root_of(static_cast<int32_t>(i));
+            ++size[root];
+            smallest[root] = std::min(smallest[root], id[i]);
+        }
+        for (std::size_t i = 0; i < parent_.size(); ++i)
+            if (size[i] > size[found] || (size[i] == size[found] && smallest[i] < smallest[found]))
+                found = static_cast<int32_t>(i);
+        return found;
+    }
+
+private:
+    std::vector<int32_t> parent_;
+};
+
+// Links the particles of one cluster with those that it sees up to `stop` in its list.
+void link_cluster(const World &world, int64_t cluster, int64_t stop, Sets &sets) {
+    const Particles &p = world.particles;
+    const ClusterList &list = world.clusters;
+    const double link = link_distance * world.constants.spacing;
+    const bool partly = !list.partly_seen.empty() && list.partly_seen[cluster];
+    for (int32_t place = list.first[cluster]; place < list.first[cluster + 1]; ++place) {
+        const auto i = static_cast<int32_t>(world.particle_listed_at(place));
+        const double x = p.x[i], y = p.y[i];
+        int32_t root = sets.root_of(i);
+        for (int64_t k = list.start[cluster]; k < stop; ++k) {
+            const int64_t near = world.particle_listed_at(list.index[k]);
+            const auto j = static_cast<int32_t>(world.images.source(near));
+            const double dx = p.x[near] - x, dy = p.y[near] - y;
+            if (!sets.are_near(j, root) && dx * dx + dy * dy < link * link &&
+                (!partly || (list.seen_by[k] >> (place - list.first[cluster]) & 1)))
+                root = sets.unite(root, j);
+        }
+    }
 }
 
 } // namespace
 
 std::vector<char> connected_deposit(const World &world) {
     const Particles &p = world.particles;
-    std::vector<int32_t> parent(p.count);
-    std::iota(parent.begin(), parent.end(), 0);
-    const double link = link_distance * world.constants.spacing, link2 = link * link;
     const ClusterList &clusters = world.clusters;
+    Sets sets(p.count);
+    // Those that may collide make one set of nearly all; what is left to link then has an end outside of the largest.
     for (int64_t c = 0; c < clusters.count(); ++c)
-        for (int64_t place = clusters.first[c]; place < clusters.first[c + 1]; ++place) {
-            const auto i = static_cast<int32_t>(world.particle_listed_at(place));
-            for_each_seen(clusters, c, place, [&](int32_t there) {
-                const int64_t near = world.particle_listed_at(there);
-                const double dx = p.x[near] - p.x[i], dy = p.y[near] - p.y[i];
-                const auto j = static_cast<int32_t>(world.images.source(near));
-                if (j > i && dx * dx + dy * dy < link2)
-                    parent[root_of(parent, i)] = root_of(parent, j);
-            });
-        }
-    std::vector<int32_t> size(p.count, 0);
-    std::vector<int64_t> smallest_id(p.count, INT64_MAX);
-    for (int32_t i = 0; i < p.count; ++i) {
-        const int32_t root = root_of(parent, i);
-        ++size[root];
-        smallest_id[root] = std::min(smallest_id[root], p.id[i]);
-    }
-    int32_t largest = 0;
-    for (int32_t i = 0; i < p.count; ++i)
-        if (size[i] > size[largest] || (size[i] == size[largest] && smallest_id[i] < smallest_id[largest]))
-            largest = i;
+        link_cluster(world, c, clusters.close_stop[c], sets);
+    const int32_t most = sets.largest(p.id);
+    for (int64_t c = 0; c < clusters.count(); ++c)
+        for (int32_t place = clusters.first[c]; place < clusters.first[c + 1]; ++place)
+            if (sets.root_of(static_cast<int32_t>(world.particle_listed_at(place))) != sets.root_of(most)) {
+                link_cluster(world, c, clusters.stop[c], sets);
+                break;
+            }
+    const int32_t largest = sets.largest(p.id);
     std::vector<char> connected(p.count);
     for (int32_t i = 0; i < p.count; ++i)
-        connected[i] = root_of(parent, i) == largest;
+        connected[i] = sets.root_of(i) == largest;
     return connected;
 }
 

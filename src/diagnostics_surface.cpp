@@ -13,6 +13,7 @@
 
 #include "diagnostics.hpp"
 #include "kernel.hpp"
+#include "sort_by_x.hpp"
 
 namespace gp {
 
@@ -49,8 +50,7 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
         if (!world.walls.contact_start.empty())
             add_mirrored(world.walls, place_of.empty() ? source : place_of[source], {p.x[i], p.y[i]}, wall_of);
     }
-    std::sort(points_.begin(), points_.end(),
-              [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    sort_by_x(points_, [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
 }
 
 // The mirror images of one particle in the plates that it is in contact with.
@@ -115,8 +115,9 @@ public:
                                   [](const Point &a, double value) { return a.y > value; });
         double sum = 0;
         for (; k != points_.end() && k->y > y - radius_; ++k)
-            if (const double w = weight(std::hypot(k->x - x_, k->y - y), 1.0 / radius_); w > 0 && sees(y, *k))
-                sum += w;
+            if (const double dx = k->x - x_, dy = k->y - y, r2 = dx * dx + dy * dy;
+                r2 < radius_ * radius_ && sees(y, *k))
+                sum += weight(std::sqrt(r2), 1.0 / radius_);
         return surface_.spacing_ * surface_.spacing_ * 10 / (pi * radius_ * radius_) * sum;
     }
 
@@ -129,25 +130,42 @@ public:
                 fullest = std::max(fullest, fraction(k->y));
         full = fullest >= full_fraction;
         const double half = full ? 0.5 : 0.5 * fullest;
-        // Down from above each particle in turn, by steps from outside to inside; then bisection.
+        // Down from above each particle in turn, by steps from outside to inside.
         constexpr int steps = 8;
         for (const Point &point : points_)
             for (int k = 1; k <= steps && point.wall < 0; ++k) {
-                double outside = point.y + radius_ * (steps - k + 1) / steps,
-                       inside = point.y + radius_ * (steps - k) / steps;
+                const double outside = point.y + radius_ * (steps - k + 1) / steps,
+                             inside = point.y + radius_ * (steps - k) / steps;
                 if (fraction(inside) < half)
                     continue;
-                for (int halving = 0; halving < 40; ++halving) {
-                    const double middle = 0.5 * (inside + outside);
-                    (fraction(middle) >= half ? inside : outside) = middle;
-                }
-                y = inside;
+                y = crossing(outside, inside, half);
                 return true;
             }
         return false;
     }
 
 private:
+    // Where the fraction is `half`, by false position (the Illinois rule: an end that stays counts half).
+    double crossing(double outside, double inside, double half) const {
+        double lacks = fraction(outside) - half, exceeds = fraction(inside) - half;
+        for (int k = 0, stayed = 0; k < 60 && outside - inside > 1e-12 * radius_ && exceeds > 0; ++k) {
+            const double middle = inside + (outside - inside) * exceeds / (exceeds - lacks);
+            const double there = fraction(middle) - half;
+            if (there >= 0) {
+                inside = middle;
+                exceeds = there;
+                lacks *= stayed > 0 ? 0.5 : 1;
+                stayed = 1;
+            } else {
+                outside = middle;
+                lacks = there;
+                exceeds *= stayed < 0 ? 0.5 : 1;
+                stayed = -1;
+            }
+        }
+        return inside;
+    }
+
     // A particle is seen unless a plate is between, its mirror image through its plate alone.
     bool sees(double y, const Point &point) const {
         if (near_.empty())

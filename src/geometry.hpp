@@ -44,6 +44,41 @@ struct Segment {
     double beyond(double s) const { return s < 0 ? -s : (s > length ? s - length : 0.0); }
 };
 
+// Where a rigid body is: turned by an angle about its pivot, which has been displaced.
+struct Pose {
+    Vector shift = Vector::Zero(); // m
+    double angle = 0;              // rad, counter-clockwise
+    bool operator==(const Pose &other) const { return shift == other.shift && angle == other.angle; }
+};
+
+// Takes what belongs to a rigid body from where it was at time 0 to a pose. What does not turn keeps its bits.
+class Placing {
+public:
+    Placing(const Pose &pose, const Vector &pivot)
+        : pivot_(pivot), shift_(pose.shift), turned_(pose.angle != 0), cosine_(std::cos(pose.angle)),
+          sine_(std::sin(pose.angle)) {}
+    Vector of(const Vector &point) const {
+        return turned_ ? Vector(pivot_ + shift_ + turned(point - pivot_)) : Vector(point + shift_);
+    }
+    Segment of(const Segment &segment) const {
+        Segment placed = segment.moved(shift_);
+        if (turned_) {
+            placed.origin = of(segment.origin);
+            placed.tangent = turned(segment.tangent);
+            placed.normal = {placed.tangent.y(), -placed.tangent.x()};
+        }
+        return placed;
+    }
+
+private:
+    Vector turned(const Vector &arm) const {
+        return {cosine_ * arm.x() - sine_ * arm.y(), sine_ * arm.x() + cosine_ * arm.y()};
+    }
+    Vector pivot_, shift_;
+    bool turned_;
+    double cosine_, sine_;
+};
+
 // Periodicity in x.
 struct Period {
     double x_min = 0, length = 0; // m; length 0: not periodic

@@ -16,4 +16,8 @@ Energies measure_energies(const World &world);
 // Energy of the start, and the height from which the potential counts.
 void open_ledger(World &world);
 
+// Gravity from now on. The potential goes on from where it is, so that the ledger closes as before: it is what gravity has not
+// yet done of its work. What counts as much energy and as little is told from where the material now is.
+void change_gravity(World &world, const Vector &gravity);
+
 } // namespace gp

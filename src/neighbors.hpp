@@ -69,15 +69,10 @@ private:
     Field<int64_t> unsorted_;
 };
 
-// Calls found(j) for the particles and images that may lie within `radius` of (x, y), in a fixed order.
+// Calls found(begin, end) for the runs of particles and images that may lie in the box, in a fixed order.
 template <class Found>
-void for_each_candidate(const CellGrid &grid, const Images &images, double x, double y, double radius,
-                        const Found &found) {
-    const Box box{x - radius, x + radius, y - radius, y + radius};
-    grid.for_each_run(box, [&](int64_t begin, int64_t end) {
-        for (int64_t j = begin; j < end; ++j)
-            found(j);
-    });
+void for_each_run_in(const CellGrid &grid, const Images &images, const Box &box, const Found &found) {
+    grid.for_each_run(box, found);
     if (images.count == 0)
         return;
     for (int side = 0; side < 2; ++side) {
@@ -86,9 +81,19 @@ void for_each_candidate(const CellGrid &grid, const Images &images, double x, do
                           [&](int64_t begin, int64_t end) {
                               for (int64_t j = begin; j < end; ++j)
                                   if (const int32_t image = images.image_of(j, side); image >= 0)
-                                      found(image);
+                                      found(image, image + 1);
                           });
     }
+}
+
+// Calls found(j) for the particles and images that may lie within `radius` of (x, y), in a fixed order.
+template <class Found>
+void for_each_candidate(const CellGrid &grid, const Images &images, double x, double y, double radius,
+                        const Found &found) {
+    for_each_run_in(grid, images, {x - radius, x + radius, y - radius, y + radius}, [&](int64_t begin, int64_t end) {
+        for (int64_t j = begin; j < end; ++j)
+            found(j);
+    });
 }
 
 // Rows of neighbour indices: entries of row i are index[start[i]] .. index[start[i + 1]].

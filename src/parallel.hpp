@@ -1,4 +1,4 @@
-// The only file, with its .cpp, that knows OpenMP.
+// The only files that know threads: this and its .cpp.
 //
 // Work is cut into blocks of a fixed number of items. Each block is done by one thread, sums are kept per block and
 // added in block order, so results do not depend on the number of threads.
@@ -6,12 +6,6 @@
 
 #include <algorithm>
 #include <cstdint>
-
-#include "float_environment.hpp"
-
-#ifdef GP_WITH_OPENMP
-#include <omp.h>
-#endif
 
 // Pair loops are compiled once per instruction set and chosen when the library is loaded. Sanitizers run before the
 // loader has resolved such functions, and clang's OpenMP outlining defeats them, so they are for plain g++ builds.
@@ -36,45 +30,37 @@ template <int64_t Size = block_size> int64_t block_count(int64_t n) {
 }
 
 // Threads that a simulation uses when its config says 0.
-inline int default_threads() {
-#ifdef GP_WITH_OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-}
+int default_threads();
 
-// False in a child that was forked after this library had used threads: GNU OpenMP waits for ever for those that fork left
-// behind. All of a child's work is then done by the thread that calls, with the same bits. Asked before each use.
-bool threads_survive();
+// Work that is shared out: run(body, begin, end) for shares of `blocks` blocks.
+struct SharedWork {
+    void (*run)(const void *body, int64_t begin, int64_t end);
+    const void *body;
+    int64_t blocks, share; // share: blocks that a thread takes at a time
+};
+void share_out(const SharedWork &work, int threads);
 
-// Calls body(block, begin, end) for the blocks of n items. body must not throw: an exception cannot leave a parallel
-// region. The number of threads is passed to this region alone; the host's OpenMP settings are never changed.
+// Calls body(block, begin, end) for the blocks of n items. body must not throw: nobody would catch it in another thread.
 template <int64_t Size = block_size, class Body> void for_each_block(int threads, int64_t n, const Body &body) {
     const int64_t blocks = block_count<Size>(n);
-#ifdef GP_WITH_OPENMP
-    // A thread with less than this to do costs more than it brings, above all where other programs want the processors.
+    const auto run = [&](int64_t begin, int64_t end) {
+        for (int64_t block = begin; block < end; ++block)
+            body(block, block * Size, std::min(n, (block + 1) * Size));
+    };
+    // A thread with less than this to do costs more than it brings.
     constexpr int64_t least_blocks = 8;
     const int useful = static_cast<int>(std::max<int64_t>(1, std::min<int64_t>(threads, blocks / least_blocks)));
-    if (useful > 1 && threads_survive()) {
-        // Blocks are not alike (what flows has more to do, and lies above what rests), and a processor may be taken away for
-        // a while: whoever is done takes the next share. Were they all alike, each thread would have so many:
-        constexpr int64_t turns = 8;
-        const int64_t share = std::max<int64_t>(1, blocks / (useful * turns));
-#pragma omp parallel num_threads(useful)
-        {
-            const UsualFloats floats;
-#pragma omp for schedule(dynamic, share) nowait
-            for (int64_t block = 0; block < blocks; ++block)
-                body(block, block * Size, std::min(n, (block + 1) * Size));
-        }
+    if (useful == 1) {
+        run(0, blocks);
         return;
     }
-#else
-    (void)threads;
-#endif
-    for (int64_t block = 0; block < blocks; ++block)
-        body(block, block * Size, std::min(n, (block + 1) * Size));
+    // Blocks are not alike (what flows has more to do, and lies above what rests), and a processor may be taken away for
+    // a while: whoever is done takes the next share. Were they all alike, each thread would have so many:
+    constexpr int64_t turns = 8;
+    using Run = decltype(run);
+    share_out({[](const void *it, int64_t begin, int64_t end) { (*static_cast<const Run *>(it))(begin, end); }, &run,
+               blocks, std::max<int64_t>(1, blocks / (useful * turns))},
+              useful);
 }
 
 } // namespace gp

@@ -48,10 +48,10 @@ struct Particles {
     Field<double> flowing;            // 1 at yield or without stress, else 0; only where the density is integrated
     Field<double> crowding;           // sum of w where it flows, plates included, else 0; only with that
     Field<double> bearing;            // 1 under pressure, else 0; only with density diffusion or fluidity
-    Field<double> fluid_seen;             // 1/s, fluidity where there is pressure, else 0
+    Field<double> fluid_seen;         // 1/s, fluidity where there is pressure, else 0
     Field<double> fluid_pull, fluid_pace; // 1/s, 1: what its neighbours pull the fluidity to, and how hard
-    Field<double> ax, ay;             // m/s2, by the forces
-    Field<double> push_x, push_y;     // m/s, by collisions and contacts with plates after that
+    Field<double> ax, ay;                 // m/s2, by the forces
+    Field<double> push_x, push_y;         // m/s, by collisions and contacts with plates after that
 
     // Fields that only some scenes need.
     struct Optional {

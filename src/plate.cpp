@@ -5,20 +5,6 @@
 
 namespace gp {
 
-Vector Placing::of(const Vector &point) const {
-    return turned_ ? Vector(pivot_ + shift_ + turned(point - pivot_)) : Vector(point + shift_);
-}
-
-Segment Placing::of(const Segment &segment) const {
-    Segment placed = segment.moved(shift_);
-    if (turned_) {
-        placed.origin = of(segment.origin);
-        placed.tangent = turned(segment.tangent);
-        placed.normal = {placed.tangent.y(), -placed.tangent.x()};
-    }
-    return placed;
-}
-
 Pose Plate::prescribed_pose(double time) const {
     if (state_.driven) {
         const double since = time - state_.driven_since;

@@ -1,38 +1,10 @@
 // A plate's motion as a rigid body, and what acts on it. Its line is made of facets.
 #pragma once
 
-#include <cmath>
-
 #include "geometry.hpp"
 #include "scene.hpp"
 
 namespace gp {
-
-// Where a rigid body is: turned by an angle about its pivot, which has been displaced.
-struct Pose {
-    Vector shift = Vector::Zero(); // m
-    double angle = 0;              // rad, counter-clockwise
-
-    bool operator==(const Pose &other) const { return shift == other.shift && angle == other.angle; }
-};
-
-// Takes what belongs to a rigid body from where it was at time 0 to a pose.
-class Placing {
-public:
-    Placing(const Pose &pose, const Vector &pivot)
-        : pivot_(pivot), shift_(pose.shift), turned_(pose.angle != 0), cosine_(std::cos(pose.angle)),
-          sine_(std::sin(pose.angle)) {}
-    Vector of(const Vector &point) const;
-    Segment of(const Segment &segment) const;
-
-private:
-    Vector turned(const Vector &arm) const {
-        return {cosine_ * arm.x() - sine_ * arm.y(), sine_ * arm.x() + cosine_ * arm.y()};
-    }
-    Vector pivot_, shift_;
-    bool turned_;
-    double cosine_, sine_;
-};
 
 // A plate in motion.
 class Plate {

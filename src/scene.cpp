@@ -115,6 +115,26 @@ Scene::Scene(const gp_config &config) : config_(config) {
     materials_.push_back(default_material());
 }
 
+namespace {
+
+// Is the stress with which columns of this material begin inside the yield surface?
+void check_k0(const gp_material &m, const gp_config &config) {
+    if (m.k0 == 0)
+        return;
+    require(scheme_of(config) == Scheme::adjoint, "gp_material.k0", m.k0,
+            "0: only columns of GP_STRESS_ELASTIC begin with a deviator");
+    const double mu = config.friction_factor * m.mu_s;
+    const double least = mu < 1 ? (1 - mu) / (1 + mu) : 0, most = mu < 1 ? (1 + mu) / (1 - mu) : INFINITY;
+    if (!(m.k0 > 0 && std::isfinite(m.k0) && m.k0 >= least * (1 - 1e-12) && m.k0 <= most * (1 + 1e-12)))
+        throw make_error(
+            GP_E_ARGUMENT,
+            "gp_material.k0 = %g: expected 0 or a number from %g to %g, within the yield of friction_factor "
+            "mu_s = %g",
+            m.k0, least, most, mu);
+}
+
+} // namespace
+
 int32_t Scene::add_material(const gp_material &m) {
     require_positive("gp_material.grain_density", m.grain_density);
     require(m.volume_fraction > 0 && m.volume_fraction <= 1, "gp_material.volume_fraction", m.volume_fraction,
@@ -137,6 +157,7 @@ int32_t Scene::add_material(const gp_material &m) {
         require(config_.friction_factor > 0, "gp_config.friction_factor", config_.friction_factor,
                 "a number > 0 with gp_material.nonlocal_amplitude");
     }
+    check_k0(m, config_);
     materials_.push_back(m);
     return static_cast<int32_t>(materials_.size()) - 1;
 }
@@ -251,6 +272,11 @@ int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, cons
     column.resize(x.size(), column_id);
     bodies_.push_back(body);
     return column_id;
+}
+
+void Scene::set_gravity(const Vector &gravity) {
+    config_.gravity_x = gravity.x();
+    config_.gravity_y = gravity.y();
 }
 
 } // namespace gp

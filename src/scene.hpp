@@ -2,6 +2,7 @@
 // first step; and the constants that follow from it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -76,6 +77,10 @@ struct PlateSpec {
 
     explicit PlateSpec(std::vector<Vector> line);
     void set_pivot(const Vector &at);
+    // Where it stands at time 0.
+    Pose first_pose() const {
+        return table.empty() ? Pose{start, start_angle} : Pose{table.displacement(0), table.turn(0)};
+    }
     // Is a segment whose normal is this one within a distance of a point?
     bool lies_at(const Vector &point, const Vector &normal, double within) const;
     bool closed() const { return points.front() == points.back(); }
@@ -96,10 +101,39 @@ struct Body {
 struct MaterialConstants {
     double density; // rho0 = phi rho_s, kg/m3
     double grain_density, grain_diameter;
+    double k0;           // stress across over stress along, with which columns begin; 0: isotropic
     double bulk_modulus; // rho0 c0^2, Pa
     ReturnMap map;
     Regularized law;
     double cooperativity2, fluidity_time; // m2, (A d)^2; s, t0: of the granular fluidity
+};
+
+// Sound speed over the largest flow speed, so that the density varies by about 1 % ([1], section 2.2).
+constexpr double sound_to_flow_speed = 10.0;
+
+// Speed of the hardest blow over the sound speed. In theory what is stopped at v is compressed by v / c0, bearing rho c v. Blocks
+// that fall on a rough floor, 6 x 6 to 40 x 20, also without sides, with and without jitter; compression in v / c0 where they are
+// densest and of the densest fifth; largest energy error over the kinetic energy, in %:
+//
+//   c0 / v   densest       fifth        energy
+//     10     1.0 to 2.5    .2 to 1.0    -8.5
+//     33      .7 to 2.8    .1 to 1.0    -0.8 to -3.9
+//     50      .6 to 2.8     0 to 1.0    -0.6 to -2.2
+//     60      .6 to 2.5     0 to 1.0    -0.5 to -1.8
+//
+// The energy error is in proportion to the time step, too (33: -3.8, -1.8, -.9, -.5 % with cfl .8, .4, .2, .1), so a longer step
+// with a smaller sound speed is no gain. There is no plateau in what becomes of a block that falls far: the stiffer, the less of
+// its energy it springs back with (a block of 20 x 10 spacings from .5 m: .30, .19, .09 with c0 / v = 10, 33, 100), and the
+// narrower its heap (the middle half of its mass within .64, .57, .39, .25 m with 10, 20, 40, 80).
+constexpr double most_blow = 1.0 / 60;
+
+// A blow that a scene foresees (scene_falls.hpp).
+struct Impact {
+    double speed = 0;   // m/s, along the normal of what is met; 0: none
+    double fall = 0;    // m, the part of the way that is a free fall; 0: by the velocity with which it begins
+    int32_t body = -1;  // that meets
+    int32_t plate = -1; // the plate, or
+    int32_t onto = -1;  // the body that is met
 };
 
 // What follows from the scene once it is complete.
@@ -115,20 +149,27 @@ struct Constants {
     LatticeSums interaction_lattice; // for the interaction radius
     OneSidedSlope one_sided;         // of the weight
     double sound_speed;              // c0, m/s
-    double flow_speed;               // m/s, the largest that the scene can reach, which the sound speed is based on
-    bool sound_speed_is_arbitrary;   // nothing in the scene sets a speed
-    double wave_speed;               // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), c0 without G; m/s
-    double fall_height;              // m, that the sound speed is based on
-    double time_scale;               // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
-    double plate_mass;               // kg/m2, of a loaded plate that has none of its own
-    double plate_step;               // s, largest step that is stable for the lightest loaded plate
-    double viscous_step;             // s, largest step that is stable for the coefficients that damp
-    double contrast_step;            // s, largest step that is stable where materials of different density meet
-    double penalty;                  // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
-    double elastic_penalty;          // the same inside the yield surface, over that
-    bool fluid;                      // a material in use has a fluidity
+    double flow_speed; // m/s, the largest that the scene can reach; at the start the sound speed is based on it
+    bool sound_speed_is_arbitrary; // nothing in the scene sets a speed
+    Impact impact;                 // the hardest; none with the number density
+    bool sound_speed_is_of_impact; // chosen for it
+    double wave_speed;             // of elastic compression waves: c0 sqrt(1 + G/(rho c0^2)), c0 without G; m/s
+    double fall_height;            // m, that the flow speed is based on
+    double plate_mass;             // kg/m2, of a loaded plate that has none of its own
+    double plate_step;             // s, largest step that is stable for the lightest loaded plate
+    double viscous_step;           // s, largest step that is stable for the coefficients that damp
+    double contrast_step;          // s, largest step that is stable where materials of different density meet
+    double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
+    double elastic_penalty;        // the same inside the yield surface, over that
+    bool fluid;                    // a material in use has a fluidity
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
+
+    // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
+    double time_scale() const {
+        const double g = gravity.norm();
+        return g > 0 && fall_height > 0 ? std::sqrt(fall_height / g) : 100 * spacing / sound_speed;
+    }
 };
 
 struct InitialStress {
@@ -145,6 +186,8 @@ public:
     int32_t add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                           const double *vy);
     int32_t add_plate(const gp_plate &plate);
+    // In place of the config's.
+    void set_gravity(const Vector &gravity);
     // From now on the plate has this constant motion in place of its own.
     void drive_plate(int32_t plate, const Motion &motion);
     // Throws if a plate is too long to turn within the period. name: of the argument.
@@ -164,6 +207,8 @@ public:
     int64_t particle_count() const { return static_cast<int64_t>(x.size()); }
 
     Constants constants() const;
+    // Gravity, and the height and speed of a fall of material that is at these places (of plates that are where they begin).
+    void set_fall(Constants &constants, const Vector &gravity, const double *px, const double *py, int64_t count) const;
     // With which every particle begins (gp_column.initial_pressure).
     std::vector<InitialStress> initial_stress(const Constants &constants) const;
 

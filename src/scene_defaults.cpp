@@ -30,6 +30,7 @@ gp_config default_config(int32_t preset) {
     config.bulk_viscosity = 0.1;
     config.implicit_tolerance = 1e-5;
     config.implicit_iterations = 100;
+    config.threads = 1;
     if (preset != GP_PRESET_DEFAULT) {
         config.density_diffusion = 0;
         config.bulk_viscosity = 0;
@@ -52,6 +53,7 @@ gp_material default_material() {
     material.mu_2 = std::tan(32 * degree);
     material.i0 = 0.3;
     material.fluidity_time = 1e-4;
+    material.k0 = 0;
     return material;
 }
 

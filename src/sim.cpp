@@ -237,6 +237,23 @@ void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
     }
 }
 
+void Sim::set_gravity(double gx, double gy) {
+    require_finite("gx", gx);
+    require_finite("gy", gy);
+    const Vector gravity(gx, gy);
+    if (started_) {
+        if (gravity == world_->constants.gravity)
+            return;
+        change_gravity(*world_, gravity);
+        ++epoch_;
+        if (log_)
+            warn(warnings_.of_gravity(*world_));
+    } else {
+        scene_.set_gravity(gravity);
+        scene_changed();
+    }
+}
+
 void Sim::prepare() {
     if (world_ && world_->lists_whole)
         return;
@@ -291,6 +308,8 @@ void Sim::require_steppable() const {
     check_demanded_step();
     if (world_->clock.step == 0)
         stages::require_moderate_flow(*world_);
+    if (const std::string note = warnings_.note_of_scene(*world_); !note.empty())
+        log(GP_LOG_INFO, note);
     warn(self.warnings_.of_scene(*world_));
     self.started_ = true;
 }

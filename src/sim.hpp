@@ -41,6 +41,7 @@ public:
                           const double *vy);
     int32_t add_plate(const gp_plate &plate);
     void set_plate_motion(int32_t plate, double vx, double vy, double omega);
+    void set_gravity(double gx, double gy);
 
     gp_status step(gp_sim *handle, int64_t n);
     gp_status run(gp_sim *handle, double t_end);

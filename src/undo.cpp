@@ -106,10 +106,10 @@ void undo_step(World &world, UndoneOrder order) {
     if (world.lists_new)
         world.lists_valid = false; // the plates are about to be where they were
     start.fields_kept = false;
-    const double wound = world.ledger.wound; // positions that have returned into the period stay there
+    const double level = world.ledger.level; // positions that have returned into the period stay there
     world.clock = start.clock;
     world.ledger = start.ledger;
-    world.ledger.wound = wound;
+    world.ledger.level = level;
     world.walls.plates = start.plates;
     world.walls.place_facets();
     world.shifted = start.shifted;

@@ -5,6 +5,7 @@
 
 #include "error.hpp"
 #include "ledger.hpp"
+#include "mistakes.hpp"
 #include "stages/stages.hpp"
 #include "volume_drift.hpp"
 
@@ -15,12 +16,15 @@ namespace {
 // From here on a state is doubtful.
 constexpr double compression_limit = 0.03,
                  good_compression = 0.01; // the scene's own sound speed is made for the latter
-constexpr double plate_share = 0.3;       // of the sound speed
-constexpr double least_layers = 3;        // of a column
-constexpr double penalty_share = 0.1;     // of the dissipation
-constexpr double error_share = 0.02;      // of the ledger's scale
-constexpr double passed_share = 0.05;     // dl behind a plate; on its line particles are while they collide
-constexpr double overlap_share = 0.5;     // dl between particles as they begin
+// In a blow the row at the plate is compressed by two to three times what the material is: so it is of a share of the
+// particles that the limit is asked, and of single ones thrice as much.
+constexpr double compressed_share = 0.2, single_limit = 3 * compression_limit;
+constexpr double plate_share = 0.3;   // of the sound speed
+constexpr double least_layers = 3;    // of a column
+constexpr double penalty_share = 0.1; // of the dissipation
+constexpr double error_share = 0.02;  // of the ledger's scale
+constexpr double passed_share = 0.05; // dl behind a plate; on its line particles are while they collide
+constexpr double overlap_share = 0.5; // dl between particles as they begin
 
 // Steps between looks at what takes a pass over particles or contacts, and at what takes one over pairs.
 constexpr int64_t interval = 64, pair_interval = 1024;
@@ -43,7 +47,75 @@ std::string text_of_drift(const World &world, double drift) {
 
 // The largest energy that the ledger has dealt with, J/m.
 double ledger_scale(const Ledger &ledger) {
-    return std::max({std::abs(ledger.initial), ledger.largest_kinetic, ledger.dissipated, std::abs(ledger.plate_work)});
+    return std::max({std::abs(ledger.initial), ledger.scale, ledger.largest_kinetic, ledger.dissipated,
+                     std::abs(ledger.plate_work)});
+}
+
+// Where the material is compressed beyond the limits, in the present step.
+struct Compressed {
+    bool doubtful = false;
+    int64_t particle = -1; // the densest
+    double most = 0;       // its compression
+};
+
+Compressed find_compressed(const World &world) {
+    const Particles &p = world.particles;
+    Compressed found;
+    int64_t count = 0;
+    for (int64_t i = 0; i < p.count; ++i) {
+        const double compression = p.density[i] / world.material_of(i).density - 1;
+        count += compression > compression_limit;
+        if (compression > found.most) {
+            found.most = compression;
+            found.particle = i;
+        }
+    }
+    found.doubtful = found.most > single_limit ||
+                     (count > 0 && static_cast<double>(count) >= compressed_share * static_cast<double>(p.count));
+    return found;
+}
+
+// How fast what is about a particle comes at it, or it at a plate: m/s.
+double approach_to(const World &world, int64_t i) {
+    const Particles &p = world.particles;
+    const Vector at(p.x[i], p.y[i]), velocity(p.vx[i], p.vy[i]);
+    double fastest = 0;
+    for_each_candidate(world.grid, world.images, at.x(), at.y(), 2 * world.constants.reach, [&](int64_t j) {
+        const Vector apart = Vector(p.x[j], p.y[j]) - at;
+        const double distance = apart.norm();
+        if (distance > 0)
+            fastest = std::max(fastest, -apart.dot(Vector(p.vx[j], p.vy[j]) - velocity) / distance);
+    });
+    const Walls &walls = world.walls;
+    for (std::size_t f = 0; f < walls.facets.size(); ++f) {
+        const Segment &s = walls.facets[f].segment;
+        if (s.nearest(walls.nearest_image(s, at)) < world.constants.reach)
+            fastest = std::max(fastest, s.normal.dot(walls.velocity_at(static_cast<int32_t>(f), at) - velocity));
+    }
+    return fastest;
+}
+
+// What bears or flows is compressed by its pressure, as the square of speeds that the scene foresees over the sound speed; what
+// is stopped at once, by the ratio of its speed to that: a blow, a jet. The remedy for the one is too small for the other.
+std::string text_of_compression(const World &world, const Compressed &found) {
+    const Constants &c = world.constants;
+    const Particles &p = world.particles;
+    const double by_pressure = c.sound_speed * std::sqrt(found.most / good_compression);
+    const double speed = approach_to(world, found.particle), by_blow = speed / most_blow;
+    std::string text = format_text("compression of %.3g %% at (%g, %g) m, time %g s: ", 100 * found.most,
+                                   p.x[found.particle], p.y[found.particle], world.clock.time);
+    // Where it is densest a blow compresses by up to three times that ratio, a squeeze at any speed.
+    const bool is_blow = found.most * c.sound_speed * c.sound_speed > c.flow_speed * c.flow_speed &&
+                         3 * speed > 0.5 * found.most * c.sound_speed;
+    if (is_blow)
+        return text +
+               format_text("what is stopped at %.3g m/s, as in a blow or a jet, is compressed by the ratio of that "
+                           "and the sound speed of %g m/s; set gp_config.sound_speed to about %.3g or let it "
+                           "meet more slowly",
+                           speed, c.sound_speed, std::max(by_blow, by_pressure));
+    return text + format_text("the sound speed of %g m/s is too low for what acts here; set gp_config.sound_speed to "
+                              "about %.3g",
+                              c.sound_speed, by_pressure);
 }
 
 // A particle that has come behind the line of a plate that it sees; -1: none.
@@ -57,6 +129,59 @@ const Contact *passed_contact(const World &world) {
             return &contact;
     }
     return nullptr;
+}
+
+// The error is in proportion to the time step.
+std::string text_of_energy(const World &world, double error) {
+    const Constants &c = world.constants;
+    const gp_config &config = world.scene->config();
+    const double share = 0.5 * error_share / std::abs(error), speed = c.impact.speed;
+    std::string text =
+        format_text("the energy ledger is wrong by %.3g %% at time %g s: set ", 100 * error, world.clock.time);
+    text += config.time_step > 0 ? format_text("gp_config.time_step to about %.2g s", share * config.time_step)
+                                 : format_text("gp_config.cfl to about %.2g (the last time_step was %.3g s)",
+                                               share * world.clock.dt * c.wave_speed / c.spacing, world.clock.dt);
+    if (speed > most_blow * c.sound_speed)
+        text += format_text(
+            " or, if it is from the blow at %.3g m/s with which the scene begins, gp_config.sound_speed to about %.3g",
+            speed, speed / most_blow);
+    return text;
+}
+
+// Another plate near a particle that a plate moves against; -1: none.
+int32_t closing_plate(const World &world, int32_t plate, const Vector &at) {
+    const Walls &walls = world.walls;
+    for (const Facet &facet : walls.facets)
+        if (facet.plate != plate && !(walls.plates[facet.plate].motion() == walls.plates[plate].motion()) &&
+            facet.segment.nearest(walls.nearest_image(facet.segment, at)) < 2 * world.constants.spacing)
+            return facet.plate;
+    return -1;
+}
+
+std::string text_of_passed(const World &world, const Contact &contact) {
+    const Particles &p = world.particles;
+    const Constants &c = world.constants;
+    const int64_t i = contact.particle;
+    const int32_t id = world.walls.facets[contact.facet].plate;
+    const Plate &plate = world.walls.plates[id];
+    const auto at_time = [&](const char *does) {
+        return format_text("plate %d %s particle %lld at (%g, %g) m, time %g s: ", id, does,
+                           static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time);
+    };
+    const bool moves = plate.motion().any();
+    if (const int32_t other = closing_plate(world, id, {p.x[i], p.y[i]}); other >= 0)
+        return at_time(moves ? "passes over" : "is passed by") +
+               format_text("plates %d and %d close on it; let them stay a spacing apart, %g m", id, other, c.spacing);
+    if (moves)
+        return at_time("passes over") + "drive the plate slower, or keep plates that meet a spacing apart";
+    if (world.velocity_span > most_blow * c.sound_speed)
+        return at_time("is passed by") +
+               format_text("the plate is at rest, and material comes at up to %.3g m/s; set gp_config.sound_speed to "
+                           "about %.3g (%g m/s now) or let it meet more slowly",
+                           world.velocity_span, world.velocity_span / most_blow, c.sound_speed);
+    return at_time("is passed by") +
+           "the plate is at rest; begin material half a spacing in front of its line, and let the "
+           "ends of plates that meet coincide or overlap";
 }
 
 struct Overlaps {
@@ -96,7 +221,11 @@ std::vector<std::string> Warnings::of_scene(const World &world) {
     std::vector<std::string> texts;
     const Constants &c = world.constants;
     const gp_config &config = world.scene->config();
-    if (!is_new(scene) || world.particles.count == 0)
+    if (!is_new(scene))
+        return texts;
+    for (std::string &text : scene_mistakes(world))
+        texts.push_back(std::move(text));
+    if (world.particles.count == 0)
         return texts;
     if (c.sound_speed_is_arbitrary)
         texts.push_back("sound_speed: nothing in the scene sets a speed, so 1 m/s is used");
@@ -133,6 +262,23 @@ std::vector<std::string> Warnings::of_scene(const World &world) {
     return texts;
 }
 
+std::string Warnings::note_of_scene(const World &world) const {
+    const Constants &c = world.constants;
+    if (is_told(scene) || !c.sound_speed_is_of_impact)
+        return {};
+    const Impact &impact = c.impact;
+    const std::string met =
+        impact.plate >= 0 ? format_text("plate %d", impact.plate) : format_text("column %d", impact.onto);
+    const std::string fall = impact.fall > 0 ? format_text(" after a fall of %.3g m", impact.fall) : std::string();
+    const double of_flow = sound_to_flow_speed * c.flow_speed;
+    return format_text(
+        "the sound speed is %.4g m/s, %g times the %.3g m/s at which column %d meets %s%s. That takes %.2g "
+        "times the steps that the flow alone needs; gp_config.sound_speed = %.4g saves them, at the price "
+        "of a soft blow from which the material springs back",
+        c.sound_speed, 1 / most_blow, impact.speed, impact.body, met.c_str(), fall.c_str(), c.sound_speed / of_flow,
+        of_flow);
+}
+
 std::vector<std::string> Warnings::of_retry(const World &world, const char *error) {
     if (!is_new(retried))
         return {};
@@ -140,17 +286,26 @@ std::vector<std::string> Warnings::of_retry(const World &world, const char *erro
                         static_cast<long long>(world.clock.step), error)};
 }
 
+std::vector<std::string> Warnings::of_gravity(const World &world) {
+    const Constants &c = world.constants;
+    // A fall of the height h and a column of that height compress by g h / c0^2.
+    const double compression = 0.5 * std::pow(c.flow_speed / c.sound_speed, 2);
+    if (compression <= compression_limit || !is_new(more_gravity))
+        return {};
+    return {format_text(
+        "gp_set_gravity = (%g, %g) m/s2: the scene can now reach %g m/s, for which the sound speed of %g m/s "
+        "is too low (compression of some %.2g %%): set gp_config.sound_speed to about %g",
+        c.gravity.x(), c.gravity.y(), c.flow_speed, c.sound_speed, 100 * compression, 10 * c.flow_speed)};
+}
+
 std::vector<std::string> Warnings::of_step(const World &world) {
     std::vector<std::string> texts;
     const Constants &c = world.constants;
     const double time = world.clock.time;
     // By number density the lattice beside a wall is compressed by 7 % as it stands.
-    if (!by_number_density(c.scheme) && world.max_compression > compression_limit && is_new(compressed))
-        texts.push_back(
-            format_text("compression of %g %% at time %g s: the sound speed of %g m/s is too low for what acts "
-                        "here; set gp_config.sound_speed to about %g",
-                        100 * world.max_compression, time, c.sound_speed,
-                        c.sound_speed * std::sqrt(world.max_compression / good_compression)));
+    if (!by_number_density(c.scheme) && world.max_compression > compression_limit && !is_told(compressed))
+        if (const Compressed found = find_compressed(world); found.doubtful && is_new(compressed))
+            texts.push_back(text_of_compression(world, found));
     for (std::size_t k = 0; k < world.walls.plates.size(); ++k) {
         const Plate &plate = world.walls.plates[k];
         const double speed = plate.fastest();
@@ -162,14 +317,11 @@ std::vector<std::string> Warnings::of_step(const World &world) {
     if (world.clock.step % interval != 0)
         return texts;
 
-    if (const Contact *contact = passed_contact(world); contact && is_new(passed_plate)) {
-        const Particles &p = world.particles;
-        const int64_t i = contact->particle;
-        texts.push_back(format_text(
-            "plate %d passes over particle %lld at (%g, %g) m, time %g s: drive the plate slower, "
-            "or keep plates that meet a spacing apart",
-            world.walls.facets[contact->facet].plate, static_cast<long long>(p.id[i]), p.x[i], p.y[i], time));
-    }
+    if (const Contact *contact = passed_contact(world); contact && is_new(passed_plate))
+        texts.push_back(text_of_passed(world, *contact));
+    if (!is_told(lost_material))
+        if (std::string text = lost_particles(world); !text.empty() && is_new(lost_material))
+            texts.push_back(std::move(text));
     if (by_number_density(c.scheme)) // the paper's schemes have no penalty, and lose energy by their nature
         return texts;
     if (world.clock.step % pair_interval == 0) {
@@ -189,9 +341,7 @@ std::vector<std::string> Warnings::of_step(const World &world) {
                         100 * ledger.penalty / ledger.dissipated, time));
     const double error = ledger.initial - (measure_energies(world).sum() + ledger.dissipated + ledger.plate_work);
     if (std::abs(error) > error_share * scale && is_new(large_energy_error))
-        texts.push_back(format_text("the energy ledger is wrong by %g %% at time %g s: set a smaller gp_config.cfl or "
-                                    "time_step (the last step was %g s)",
-                                    100 * error / scale, time, world.clock.dt));
+        texts.push_back(text_of_energy(world, error / scale));
     return texts;
 }
 

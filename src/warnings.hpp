@@ -13,8 +13,10 @@ class Warnings {
 public:
     // Texts that have not been told yet.
     std::vector<std::string> of_scene(const World &world); // before the first step
+    std::string note_of_scene(const World &world) const;   // what the library chose at a cost, no warning; or nothing
     std::vector<std::string> of_step(const World &world);  // after each
     std::vector<std::string> of_retry(const World &world, const char *error);
+    std::vector<std::string> of_gravity(const World &world); // after a change of it
 
 private:
     enum Kind {
@@ -27,6 +29,8 @@ private:
         large_penalty,
         large_energy_error,
         lost_volume,
+        more_gravity,
+        lost_material,
         kinds
     };
 
@@ -37,6 +41,7 @@ public:
     static constexpr uint32_t all_kinds = (1u << kinds) - 1;
 
 private:
+    bool is_told(Kind kind) const { return (told_ & (1u << kind)) != 0; }
     bool is_new(Kind kind); // and not any more
 
     uint32_t told_ = 0; // bit per kind

@@ -32,7 +32,7 @@ struct Piece {
 // Energies in J per metre of depth.
 struct Ledger {
     double initial = 0;          // kinetic + potential + elastic at the start
-    double reference_height = 0; // m along -g, where the potential is zero
+    double reference_height = 0; // m along -g, where the potential is `level`
     double dissipated = 0;       // all of it
     double penalty = 0;          // the part of the zero-energy penalty
     double walls = 0;            // the part lost between ghosts and plates, and by grains in flight above them
@@ -42,8 +42,9 @@ struct Ledger {
     double collisions = 0;       // the part of the collision safeguard
     double side_walls = 0;       // the part of the friction of side walls
     double plate_work = 0;       // done by the material on the plates
-    double largest_kinetic = 0;
-    double wound = 0; // potential energy that particles left behind when they went round the period
+    double scale = 0; // of the scene's energies: the sum at the start or the latest change of gravity, from its height
+    double largest_kinetic = 0; // since then
+    double level = 0; // added to the potential, so that neither going round the period nor a change of gravity shows
 };
 
 // Sums of one step over one block of particles; a cache line each.

@@ -81,8 +81,13 @@ def with_sections(old: str, new: str, titles: Iterable[str], versions: list[str]
     for title in titles:
         if title not in made:
             raise SystemExit(f"no section {title!r}: there are {', '.join(list(made)[1:])}")
+    before = re.search(rf"{re.escape(MIXED)} (.*): of {re.escape(versions[0])}\.", kept[""])
+    earlier = before[1].split(", ") if before else []
+    of_latest = [title for title in kept if title in titles or title in earlier]
+    of_latest += [title for title in titles if title not in kept]
     said = (
-        f"{MIXED} {', '.join(titles)}: of {versions[0]}. All others: of {versions[1]}, made anew with the release."
+        f"{MIXED} {', '.join(of_latest)}: of {versions[0]}. All others: of {versions[1]}, made anew with the release. "
+        "The summary below is theirs, too."
     )
     paragraphs = [one for one in kept[""].split("\n\n") if not one.startswith(MIXED)]
     paragraphs.insert(1, said)
@@ -106,13 +111,21 @@ def write_report(
         "--section",
         metavar="TITLE",
         action="append",
-        help="write only this section anew, without figures, and leave the rest of the report as it is; more than once for more",
+        help="write only this section anew and leave the rest of the report as it is; more than once for more",
+    )
+    parser.add_argument(
+        "--figure",
+        metavar="NAME",
+        action="append",
+        default=[],
+        choices=sorted(figures),
+        help="with --section: a figure to be drawn anew for it; more than once for more",
     )
     arguments = parser.parse_args()
     collection = Collection(arguments.results)
     report = arguments.docs / f"{name}.md"
     if arguments.section:
-        drawn: set[str] = set()
+        drawn = draw_all({name: figures[name] for name in arguments.figure}, arguments.docs / "images", name, collection)
         text = with_sections(
             report.read_text(encoding="utf-8"), compose(collection, drawn), arguments.section, changelog_versions()
         )

@@ -10,7 +10,7 @@ import runs
 from coefficients import CRITERION, Coefficient
 from results import Collection, Result
 
-QUANTITIES = {"peak": "peak", "spread": "run-out of 98 % of the mass", "tip": "run-out of the tips"}
+QUANTITIES = {"peak": "peak", "bulk": "run-out of 90 % of the mass", "spread": "run-out of 98 % of the mass"}
 SURE = 2.0  # standard errors
 
 

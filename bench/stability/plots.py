@@ -16,7 +16,7 @@ from results import Collection, Result
 from sections import present, pressure_rows
 
 COLORS = {"default": "#0072B2", "paper": "#D55E00", "local": "#CC79A7", "implicit": "#009E73"}
-QUANTITY_STYLES = {"peak": ("#0072B2", "o", "-"), "spread": ("#D55E00", "s", "-"), "tip": ("0.6", "^", ":")}
+QUANTITY_STYLES = {"peak": ("#0072B2", "o", "-"), "bulk": ("#D55E00", "s", "-"), "spread": ("0.6", "^", ":")}
 SPEED_UNIT = math.sqrt(runs.GRAVITY * 0.002)  # m/s, sqrt(g d)
 
 
@@ -213,7 +213,7 @@ def resolution(path: Path, results: Collection) -> bool:
     if not found:
         return False
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.8), layout="constrained")
-    for ax, columns in zip(axes, (("peak",), ("spread", "tip"))):
+    for ax, columns in zip(axes, (("peak",), ("bulk", "spread"))):
         for column in columns:
             color, marker, line = QUANTITY_STYLES[column]
             unit = runs.WIDTH if column == "peak" else 1

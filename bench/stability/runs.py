@@ -284,7 +284,7 @@ def mode(pattern: str, penalty: float) -> Run:
 
 # --------------------------------------------------------------------------------------------- sensitivity
 
-SEEDS = {16: 24, 32: 12, 64: 6}  # runs of an ensemble by resolution
+SEEDS = {8: 24, 16: 24, 32: 12, 64: 6}  # runs of an ensemble by resolution
 MORE_SEEDS = 24  # of the defaults and of the values that the criterion is about, L/dl = 32
 FEW_SEEDS = 3  # where the bits should be the same, and where more would be too dear
 JITTER = 0.01  # dl: enough for the runs of an ensemble to be independent, too little to matter itself
@@ -325,6 +325,15 @@ def varied(c: Coefficient, value: float, resolution: int = 32) -> Run:
     return ensemble((c.option, f"{value:g}"), resolution, seeds, scale)
 
 
+# Whether a narrower horizon, which costs less, is as sure: by resolution, against the finest.
+HORIZONS = (2.5, 3.0, 4.0, 6.0)
+HORIZON_RESOLUTIONS = (16, 32, 64)
+
+
+def by_horizon(resolution: int, horizon: float) -> Run:
+    return varied(next(c for c in NUMERICAL if c.name == "horizon"), horizon, resolution)
+
+
 def threads_run(threads: int) -> Run:
     """A single run, for the comparison bit by bit."""
     return collapse("default", 32, ARREST, threads=threads)
@@ -355,6 +364,7 @@ def sensitivity_fine() -> list[Run]:
 
 RESOLUTIONS = {8: 24, 16: 24, 32: MORE_SEEDS, 64: 6, 128: 1, 256: 1, 512: 1}  # seeds
 LONG_RESOLUTIONS = (256, 512)
+FINEST = 128  # what others are compared with: the finest that is not a matter of hours
 MILLION = 1264  # spacings in the width: 998,560 particles
 MILLION_STEPS = 300
 
@@ -388,6 +398,7 @@ def studies() -> dict[str, list[Run]]:
         "modes": [mode(pattern, penalty) for pattern in MODES for penalty in MODE_PENALTIES],
         "sensitivity": sensitivity(),
         "sensitivity_fine": sensitivity_fine(),
+        "horizons": [by_horizon(r, h) for r in HORIZON_RESOLUTIONS for h in HORIZONS] + [resolution_run(FINEST)],
         "coarse": [
             coarse(r, d, h) for r in COARSE_RESOLUTIONS for d in COARSE_DIAMETERS for h in COARSE_HORIZONS
         ],

@@ -6,7 +6,7 @@ import math
 import runs
 import theory
 from coefficients import COEFFICIENTS, FINE, NUMERICAL
-from markdown import NONE, cpu, fixed, significant, signed, table
+from markdown import NONE, cpu, fixed, percent, significant, signed, table
 from measures import (
     QUANTITIES,
     Change,
@@ -49,7 +49,7 @@ def scatter(results: Collection) -> str:
         m = mean(result, "rest")
         row += [fixed(m.value, 2), f"{100 * m.scatter / m.value:.0f} %", cpu(result.cpu / runs.RESOLUTIONS[resolution])]
         rows.append(row)
-    header = ["L/dl", "runs", "peak y/L", "scatter", "run-out, 98 %", "scatter", "run-out, tips", "scatter"]
+    header = ["L/dl", "runs", "peak y/L", "scatter", "run-out, 90 %", "scatter", "run-out, 98 %", "scatter"]
     return table([*header, "at rest (s)", "scatter", "CPU s per run"], rows)
 
 
@@ -104,6 +104,28 @@ def sensitivity(results: Collection) -> str:
     return table(
         ["coefficient", "value", *QUANTITIES.values(), "at rest (s)", "ledger error / E0", "CPU s per run"], rows
     )
+
+
+def horizons(results: Collection) -> str:
+    """Peak and run-outs by horizon and resolution against the finest of the default horizon."""
+    finest = results(runs.resolution_run(runs.FINEST))
+    rows = []
+    for resolution in runs.HORIZON_RESOLUTIONS:
+        for k, horizon in enumerate(runs.HORIZONS):
+            result = results(runs.by_horizon(resolution, horizon))
+            cells = []
+            for column in QUANTITIES:
+                m = mean(result, column) if result else None
+                known = mean(finest, column) if finest else None
+                cells += [
+                    fixed(m.value / (runs.WIDTH if column == "peak" else 1)) if m else NONE,
+                    percent(m.value, known.value) if m and known else NONE,
+                ]
+            pressure = fixed(mean(result, "pressure").value, 2) if result else NONE
+            spent = cpu(result.cpu / len(result.tables["seeds"]["peak"])) if result else NONE
+            rows.append([f"{resolution}" if k == 0 else "", f"{horizon:g}", *cells, pressure, spent])
+    names = [cell for name in ("peak y/L", "run-out, 90 %", "run-out, 98 %") for cell in (name, "to the finest")]
+    return table(["L/dl", "horizon / dl", *names, "highest p / (rho g H)", "CPU s per run"], rows)
 
 
 def threads(results: Collection) -> str:
@@ -307,12 +329,12 @@ def penalties(results: Collection) -> str:
     for penalty in runs.PENALTIES:
         deposit = results(runs.varied(c, penalty))
         row = [f"{penalty:g}"]
-        for column in ("peak", "spread"):
+        for column in ("peak", "bulk"):
             one = change(deposit, base, column) if deposit and base else None
             row.append("0" if penalty == c.default else with_doubt(one) if one else NONE)
         row.append(f"{100 * deposit.summary['penalty_share']:.1f} %" if deposit else NONE)
         rows.append(row)
-    return table(["penalty", "peak", "run-out, 98 %", "share of the dissipation"], rows)
+    return table(["penalty", "peak", "run-out, 90 %", "share of the dissipation"], rows)
 
 
 def dissipation(results: Collection) -> str:
@@ -350,7 +372,7 @@ def resolution(results: Collection) -> str:
         ]  # fmt: skip
         rows.append(row)
     return table(
-        ["L/dl", "particles", "runs", "peak y/L", "run-out, 98 %", "run-out, tips", "at rest (s)", "ledger error / E0",
+        ["L/dl", "particles", "runs", "peak y/L", "run-out, 90 %", "run-out, 98 %", "at rest (s)", "ledger error / E0",
          "CPU s per run", "particle-steps / CPU s"],
         rows,
     )  # fmt: skip

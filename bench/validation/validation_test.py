@@ -48,6 +48,8 @@ def check_sections(report: str) -> None:
         assert list(found) == list(made) and found[title] == made[title]
         assert "Old." in found["Independent codes"] and older.count(document.MIXED) == 1
         assert f"{title}: of 2. All others: of 1" in found[""]
+    both = document.split_sections(document.with_sections(older, report, ["Independent codes"], ["2", "1"]))[""]
+    assert title in both.split(": of 2.")[0] and "Independent codes" in both.split(": of 2.")[0], "a section keeps its version"
 
 
 def main() -> None:

@@ -15,6 +15,7 @@ START_TIMES = (0.5, 1, 2, 5)  # s, as the program has them
 COLUMN_ANGLES = (5, 10, 16)  # degrees
 COLUMN_ROWS = (28, 56)  # spacings in the height
 COLUMN_HEIGHT = 0.14  # m
+BED_ANGLE, BED = 10, 0.01  # degrees, m: the column on a layer of its grains
 SILO_ROWS = (12, 24)  # spacings in the width
 
 
@@ -36,12 +37,12 @@ def incline_start(rows: int) -> Run:
     return Run(f"incline_start_{rows}", "walls", ("incline_start", "--rows", str(rows)), 4.0 * (rows / 20) ** 3 + 1)
 
 
-def incline_column(angle: float, rows: int) -> Run:
+def incline_column(angle: float, rows: int, bed: float = 0) -> Run:
     return Run(
-        f"incline_column_{angle:g}_{rows}",
+        f"incline_column_{angle:g}_{rows}{f'_bed_{bed:g}' if bed else ''}",
         "walls",
-        ("incline_column", "--angle", f"{angle:g}", "--rows", str(rows)),
-        0.3 * angle * (rows / 28) ** 3,
+        ("incline_column", "--angle", f"{angle:g}", "--rows", str(rows), *(("--bed", f"{bed:g}") if bed else ())),
+        0.3 * angle * (rows / 28) ** 3 * (2 if bed else 1),
     )
 
 
@@ -55,5 +56,6 @@ def walls() -> list[Run]:
         + [slide_inertial(rows) for rows in INERTIAL_ROWS]
         + [incline_start(rows) for rows in START_ROWS]
         + [incline_column(angle, rows) for angle in COLUMN_ANGLES for rows in COLUMN_ROWS]
+        + [incline_column(BED_ANGLE, rows, BED) for rows in COLUMN_ROWS]
         + [silo(rows) for rows in SILO_ROWS]
     )

@@ -65,7 +65,9 @@ module granperi_raw
         real(c_double) :: gravity_y !! m/s2 [-9.81]
         real(c_double) :: sound_speed
             !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
-            !! lowest point, by its initial and plate velocities [0]
+            !! lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest
+            !! blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a
+            !! plate or another column (not with GP_DENSITY_NUMBER). The log says so and what it costs [0]
         real(c_double) :: cfl
             !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
             !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
@@ -102,8 +104,8 @@ module granperi_raw
             !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
             !! whole number of spacings [0, 0]
         integer(c_int32_t) :: threads
-            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
-            !! for any number
+            !! threads that work on this simulation, the calling one among them; 0: OpenMP's default (all processors, or
+            !! OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any number
         integer(c_int64_t) :: seed !! of the jitter [0]
         real(c_double) :: jitter
             !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
@@ -133,6 +135,20 @@ module granperi_raw
         real(c_double) :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
         real(c_double) :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double) :: i0 !! I at which mu is half way between; > 0 [0.3]
+        real(c_double) :: nonlocal_amplitude
+            !! A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10; glass
+            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default scheme, else
+            !! GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow is mu(I) as well [0]
+        real(c_double) :: fluidity_time !! s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4]
+        real(c_double) :: k0
+            !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along
+            !! the direction in which a column presses; 0: isotropic, or none across as gp_column.initial_pressure says.
+            !! Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with m = friction_factor mu_s, any above 0 where m
+            !! >= 1. Else than 0 only with GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0
+            !! sigma_v, the base all of the weight. Below 1 it is also the ratio in which the stresses change where the
+            !! material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at least .1
+            !! (without k0 .3): it stays while walls take weight over, until the material yields; beside walls as rough
+            !! as itself it then tends to 1. Columns side by side are in balance if they have the same one [0]
     end type
 
     !> The stress with which a column begins.
@@ -235,7 +251,13 @@ module granperi_raw
         real(c_double) :: surface_velocity
             !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
             !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
+        integer(c_int32_t) :: fluidity !! GP_FLUIDITY_..., of materials with nonlocal_amplitude [GP_FLUIDITY_FREE]
     end type
+
+    !> What a plate does to the granular fluidity of the material in front of it.
+    integer(c_int32_t), parameter :: GP_FLUIDITY_FREE = 0 !! no flux: its gradient along the normal is 0
+    integer(c_int32_t), parameter :: GP_FLUIDITY_ZERO = 1
+        !! it is 0 at the surface: grains glued to the plate hold their neighbours
 
     integer(c_int32_t), parameter :: GP_LOG_INFO = 0
     integer(c_int32_t), parameter :: GP_LOG_WARNING = 1
@@ -256,9 +278,10 @@ module granperi_raw
     integer(c_int32_t), parameter :: GP_FIELD_INERTIAL_NUMBER = 4096
     integer(c_int32_t), parameter :: GP_FIELD_VISCOSITY = 8192
     integer(c_int32_t), parameter :: GP_FIELD_NUMBER_DENSITY = 16384
+    integer(c_int32_t), parameter :: GP_FIELD_FLUIDITY = 32768
     integer(c_int32_t), parameter :: GP_FIELD_POSITION = 12
     integer(c_int32_t), parameter :: GP_FIELD_VELOCITY = 48
-    integer(c_int32_t), parameter :: GP_FIELD_ALL = 32767
+    integer(c_int32_t), parameter :: GP_FIELD_ALL = 65535
 
     type, bind(c) :: gp_particles
         integer(c_int32_t) :: struct_size = 0 !! set by the caller
@@ -287,6 +310,8 @@ module granperi_raw
         type(c_ptr) :: number_density
             !! N = sum of w over the neighbours within interaction_radius ([1] 2.4); with GP_DENSITY_NUMBER the scheme's
             !! own, with the ghosts behind plates
+        type(c_ptr) :: fluidity
+            !! 1/s, g: the plastic shear rate 2 |gamma| over tau / p; 0 without gp_material.nonlocal_amplitude
     end type
 
     !> What set the time step.
@@ -312,7 +337,9 @@ module granperi_raw
             !! Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals kinetic +
             !! potential + elastic + dissipated + plate_work + energy_error.
         real(c_double) :: kinetic
-        real(c_double) :: potential !! gravitational, zero at the lowest face of the initial material
+        real(c_double) :: potential
+            !! gravitational, zero at the lowest face of the initial material. gp_set_gravity leaves it as it is: from
+            !! there on it is less by what the new gravity has done, and may fall below 0
         real(c_double) :: elastic !! of compression and shear
         real(c_double) :: dissipated !! by friction, collisions, walls and the scheme itself
         real(c_double) :: plate_work !! done by the material on moving plates
@@ -351,7 +378,8 @@ module granperi_raw
             !! near on its way, as straight lines between here and the farthest places that it comes to have it; a plate
             !! under a load there rests itself: its kinetic energy is below the same 1e-6, and the material bears its
             !! load within 5 %. The energy scale is the largest of the initial energy of the ledger and the largest
-            !! kinetic energy so far
+            !! kinetic energy so far; after gp_set_gravity the energy then, with the potential from the lowest face of
+            !! the material on, and the largest kinetic energy since
         integer(c_int64_t) :: collisions !! colliding pairs so far ([1] 2.9), each step's counted anew
         real(c_double) :: wall_seconds !! s of wall-clock time inside the steps so far
         real(c_double) :: sound_speed !! m/s, c0 in use
@@ -404,7 +432,15 @@ module granperi_raw
             !! eighth of its outermost 1.25 dl), so free surfaces have no part in it; at the start all of these, of the
             !! lattice if there are none. 0 where nothing flows. Layers that keep their height stay within .01; what
             !! topples and spreads opens up, by some 0.5 dl / height. Above .02 gp_set_log warns
+        real(c_double) :: gravity_x !! m/s2, in force from here on
+        real(c_double) :: gravity_y !! m/s2, in force from here on
     end type
+
+    !> Parts of gp_state that take time to find.
+    integer(c_int32_t), parameter :: GP_STATE_DEPOSIT = 1 !! x_left, x_right, peak_x, peak_height, detached
+    integer(c_int32_t), parameter :: GP_STATE_MARKS = 2 !! x_q01 .. x_q99
+    integer(c_int32_t), parameter :: GP_STATE_DRIFT = 4 !! volume_drift
+    integer(c_int32_t), parameter :: GP_STATE_ALL = 7
 
     type, bind(c) :: gp_load
         integer(c_int32_t) :: struct_size = 0 !! set by the caller
@@ -440,7 +476,9 @@ module granperi_raw
             !! GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written [position,
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t) :: compression !! deflate level, 0 .. 9 [4]
-        integer(c_int32_t) :: single_precision !! 1: floating-point fields as 32 bits; time stays 64 [0]
+        integer(c_int32_t) :: single_precision
+            !! 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are rounded to
+            !! 1e-5 spacings, wherever they are, which compresses as well as 32 bits
         integer(c_int64_t) :: append
             !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
     end type
@@ -615,6 +653,24 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
+        !> Gravity (m/s2) from now on, for a box that is tilted or shaken, in its own frame, or gravity that sets in or
+        !> ends. Finite. Possible at any time, also from a callback, with every scheme. Before the first step it
+        !> replaces gp_config.gravity_x and gravity_y: columns begin in balance with it and the sound speed is made for
+        !> it. After it - stresses and velocities are what they were: a jump makes elastic waves as a blow does. Turning
+        !> it by small angles, such as once per step or per 0.1 degrees, does not; - gp_state.potential goes on without
+        !> a jump, so that the energy ledger closes; - gp_state.at_rest is 0 for some 90 steps at least. Setting what it
+        !> is already changes nothing; - the sound speed stays: gp_set_log warns if the scene can now fall so fast that
+        !> it compresses by more than 3 %; then set gp_config.sound_speed, 0 is made for the first gravity alone. Costs
+        !> about a twentieth of a step. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x,
+        !> gravity_y).
+        function gp_set_gravity(sim, gx, gy) bind(c, name="gp_set_gravity") result(answer)
+            import
+            type(c_ptr), value :: sim
+            real(c_double), value :: gx
+            real(c_double), value :: gy
+            integer(c_int32_t) :: answer
+        end function
+
         !> Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts
         !> time. A step that GP_E_MEMORY stops is undone and may be taken again, to the same bits (the order of views
         !> may be new); after GP_E_IO or GP_E_MEMORY of an output that writes by itself, or of the log's texts, the step
@@ -660,14 +716,20 @@ module granperi_raw
         end function
 
         !> log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per
-        !> simulation, with its figure and with what to change. At the first step: a sound_speed that nothing sets or
-        !> below the speeds that the scene can reach, particles within a quarter spacing of a plate's line, a column
-        !> thinner than 3 spacings, a time step beyond the stable limit. Later: a step taken anew, compression above 3 %
-        !> (not of the schemes of [1]), a plate in reach of material at more than 0.3 sound speeds, and, looked at every
-        !> 64 steps, a particle behind a plate, more than 10 % of the dissipation by the zero-energy penalty, an energy
+        !> simulation, with its figure and with what to change. At the first step: - a plate with material only on the
+        !> side of its body; material within a horizon and a spacing behind a plate that no other plate faces, or across
+        !> its line; - a column or set of particles more than half of which has nothing below it in the direction of
+        !> gravity, neither a plate that faces it nor a column that is borne; a scene without material; - a sound_speed
+        !> that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
+        !> plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the
+        !> stable limit. Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew,
+        !> compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in
+        !> reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
+        !> particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy
         !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
         !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
-        !> the schemes of [1]).
+        !> the schemes of [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves
+        !> its cost.
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim
@@ -696,10 +758,23 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step.
+        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second
+        !> call without a step between costs nothing.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
+            type(gp_state), intent(inout), optional :: state
+            integer(c_int32_t) :: answer
+        end function
+
+        !> The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger,
+        !> momentum, speeds, max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5
+        !> % of a time step, GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where
+        !> all flows.
+        function gp_get_state_parts(sim, parts, state) bind(c, name="gp_get_state_parts") result(answer)
+            import
+            type(c_ptr), value :: sim
+            integer(c_int32_t), value :: parts
             type(gp_state), intent(inout), optional :: state
             integer(c_int32_t) :: answer
         end function

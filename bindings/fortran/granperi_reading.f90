@@ -1,6 +1,6 @@
 !> What a simulation can be asked, and its files.
 submodule(granperi_simulation:granperi_running) granperi_reading
-    use granperi_raw, only: c_plan_entry => gp_plan_entry, c_get_state => gp_get_state, &
+    use granperi_raw, only: c_plan_entry => gp_plan_entry, c_get_state_parts => gp_get_state_parts, &
                             c_get_clock => gp_get_clock, &
                             c_get_particles => gp_get_particles, c_copy_field => gp_copy_field, &
                             c_get_surface => gp_get_surface, c_get_interface => gp_get_interface, &
@@ -12,9 +12,12 @@ submodule(granperi_simulation:granperi_running) granperi_reading
 contains
 
     module procedure state
+        integer(c_int32_t) :: asked
+        asked = GP_STATE_ALL
+        if (present(parts)) asked = parts
         if (is_missing("state", self, status, message)) return
         read%struct_size = int(c_sizeof(read), c_int32_t)
-        call report("state", c_get_state(self%handle, read), status, message)
+        call report("state", c_get_state_parts(self%handle, asked, read), status, message)
     end procedure
 
     module procedure clock

@@ -4,6 +4,7 @@ submodule(granperi_simulation) granperi_running
     use granperi_raw, only: c_create => gp_create, c_destroy => gp_destroy, c_add_material => gp_add_material, &
                             c_add_column => gp_add_column, c_add_particles => gp_add_particles, &
                             c_add_plate => gp_add_plate, c_set_plate_velocity => gp_set_plate_velocity, &
+                            c_set_gravity => gp_set_gravity, &
                             c_step => gp_step, c_run => gp_run, c_set_callback => gp_set_callback, &
                             c_set_log => gp_set_log, c_load_file => gp_load_file
     use granperi_status, only: report, report_text, text_of, c_text
@@ -192,6 +193,11 @@ contains
     module procedure set_plate_velocity
         if (is_missing("set_plate_velocity", self, status, message)) return
         call report("set_plate_velocity", c_set_plate_velocity(self%handle, plate, vx, vy), status, message)
+    end procedure
+
+    module procedure set_gravity
+        if (is_missing("set_gravity", self, status, message)) return
+        call report("set_gravity", c_set_gravity(self%handle, gx, gy), status, message)
     end procedure
 
     ! --------------------------------------------------------------------------------------------------- run

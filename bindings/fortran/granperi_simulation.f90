@@ -20,7 +20,7 @@ module granperi_simulation
         logical :: borrowed = .false. ! given to a callback: not its to destroy
     contains
         procedure, public :: create, destroy, is_created
-        procedure, public :: add_material, add_column, add_particles, add_plate, set_plate_velocity
+        procedure, public :: add_material, add_column, add_particles, add_plate, set_plate_velocity, set_gravity
         procedure, public :: run, set_callback, remove_callback, set_log, remove_log
         procedure, public :: state, clock, particles, is_current, copy, copy_field, surface, interface_between, plate_load, plan
         procedure, public :: save => save_file, load => load_file, output_open, output_write, output_close
@@ -44,7 +44,7 @@ module granperi_simulation
 
     abstract interface
         !> Called after every so many steps; stop_run is .false. on entry. sim is valid during the call only, and may be
-        !> read, written to its output and driven by set_plate_velocity. context: as given to set_callback, else not
+        !> read, written to its output and driven by set_plate_velocity and set_gravity. context: as given to set_callback, else not
         !> associated; the host's own data, to be unpacked by select type and not to be pointed elsewhere (intent(in) would
         !> say so, but gfortran 12 then takes what it points to for constant, too).
         subroutine gp_on_step(sim, context, stop_run)
@@ -144,6 +144,14 @@ module granperi_simulation
             character(*), intent(out), optional :: message
         end subroutine
 
+        !> Gravity, m/s2, from now on; before the first step it replaces the config's.
+        module subroutine set_gravity(self, gx, gy, status, message)
+            class(gp_simulation), intent(inout) :: self
+            real(c_double), intent(in) :: gx, gy
+            integer(c_int32_t), intent(out), optional :: status
+            character(*), intent(out), optional :: message
+        end subroutine
+
         !> Takes n steps. status GP_STOPPED: the callback asked to stop.
         module subroutine step_int32(self, n, status, message)
             class(gp_simulation), intent(inout) :: self
@@ -218,10 +226,11 @@ module granperi_simulation
         ! ------------------------------------------------------------------------------------------ reading, files
 
         !> Clock, energy ledger, shape, rest.
-        module function state(self, status, message) result(read)
+        module function state(self, status, message, parts) result(read)
             class(gp_simulation), intent(in) :: self
             integer(c_int32_t), intent(out), optional :: status
             character(*), intent(out), optional :: message
+            integer(c_int32_t), intent(in), optional :: parts !! GP_STATE_... added up, or 0; else all. The others are NaN
             type(gp_state) :: read
         end function
 

@@ -43,6 +43,8 @@ module granperi_types
     public :: GP_WALL_NO_SLIP
     public :: GP_WALL_FREE_SLIP
     public :: GP_WALL_COULOMB
+    public :: GP_FLUIDITY_FREE
+    public :: GP_FLUIDITY_ZERO
     public :: GP_LOG_INFO
     public :: GP_LOG_WARNING
     public :: GP_FIELD_ID
@@ -60,6 +62,7 @@ module granperi_types
     public :: GP_FIELD_INERTIAL_NUMBER
     public :: GP_FIELD_VISCOSITY
     public :: GP_FIELD_NUMBER_DENSITY
+    public :: GP_FIELD_FLUIDITY
     public :: GP_FIELD_POSITION
     public :: GP_FIELD_VELOCITY
     public :: GP_FIELD_ALL
@@ -71,6 +74,10 @@ module granperi_types
     public :: GP_DT_DEMANDED
     public :: GP_DT_END
     public :: GP_DT_RETRY
+    public :: GP_STATE_DEPOSIT
+    public :: GP_STATE_MARKS
+    public :: GP_STATE_DRIFT
+    public :: GP_STATE_ALL
 
     !> What the library holds, not copied: read it, do not write it.
     type :: gp_particles
@@ -105,6 +112,8 @@ module granperi_types
         real(c_double), pointer, contiguous :: number_density(:) => null()
             !! N = sum of w over the neighbours within interaction_radius ([1] 2.4); with GP_DENSITY_NUMBER the scheme's
             !! own, with the ghosts behind plates
+        real(c_double), pointer, contiguous :: fluidity(:) => null()
+            !! 1/s, g: the plastic shear rate 2 |gamma| over tau / p; 0 without gp_material.nonlocal_amplitude
     end type
 
     interface gp_config
@@ -142,7 +151,9 @@ contains
         real(c_double), intent(in), optional :: gravity_y !! m/s2 [-9.81]
         real(c_double), intent(in), optional :: sound_speed
             !! m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its
-            !! lowest point, by its initial and plate velocities [0]
+            !! lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest
+            !! blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a
+            !! plate or another column (not with GP_DENSITY_NUMBER). The log says so and what it costs [0]
         real(c_double), intent(in), optional :: cfl
             !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
             !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
@@ -182,8 +193,8 @@ contains
             !! m; the period is at least twice the horizon and the interaction radius and two spacings more; best a
             !! whole number of spacings [0, 0]
         integer(c_int32_t), intent(in), optional :: threads
-            !! OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The results are the same bits
-            !! for any number
+            !! threads that work on this simulation, the calling one among them; 0: OpenMP's default (all processors, or
+            !! OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any number
         integer(c_int64_t), intent(in), optional :: seed !! of the jitter [0]
         real(c_double), intent(in), optional :: jitter
             !! dl, columns' particles are displaced at random by up to this much in x and y; 0 .. 0.5 (exclusive) [0]
@@ -245,13 +256,29 @@ contains
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_material( &
-            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, status, message) result(made)
+            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, nonlocal_amplitude, fluidity_time, k0, &
+            status, message) result(made)
         real(c_double), intent(in), optional :: grain_density !! kg/m3, rho_s; > 0 [2500]
         real(c_double), intent(in), optional :: volume_fraction !! phi, so rho = phi rho_s; > 0, <= 1 [0.62]
         real(c_double), intent(in), optional :: grain_diameter !! m, d; > 0 [0.002]
         real(c_double), intent(in), optional :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
         real(c_double), intent(in), optional :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double), intent(in), optional :: i0 !! I at which mu is half way between; > 0 [0.3]
+        real(c_double), intent(in), optional :: nonlocal_amplitude
+            !! A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10; glass
+            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default scheme, else
+            !! GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow is mu(I) as well [0]
+        real(c_double), intent(in), optional :: fluidity_time
+            !! s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4]
+        real(c_double), intent(in), optional :: k0
+            !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along
+            !! the direction in which a column presses; 0: isotropic, or none across as gp_column.initial_pressure says.
+            !! Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with m = friction_factor mu_s, any above 0 where m
+            !! >= 1. Else than 0 only with GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0
+            !! sigma_v, the base all of the weight. Below 1 it is also the ratio in which the stresses change where the
+            !! material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at least .1
+            !! (without k0 .3): it stays while walls take weight over, until the material yields; beside walls as rough
+            !! as itself it then tends to 1. Columns side by side are in balance if they have the same one [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_material) :: made
@@ -265,6 +292,9 @@ contains
         if (present(mu_s)) made%mu_s = mu_s
         if (present(mu_2)) made%mu_2 = mu_2
         if (present(i0)) made%i0 = i0
+        if (present(nonlocal_amplitude)) made%nonlocal_amplitude = nonlocal_amplitude
+        if (present(fluidity_time)) made%fluidity_time = fluidity_time
+        if (present(k0)) made%k0 = k0
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
@@ -308,7 +338,7 @@ contains
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_plate( &
             x0, y0, x1, y1, friction, wall_mu, vx, vy, normal_pressure, mass_per_length, pivot_x, pivot_y, omega, &
-            surface_velocity, status, message) result(made)
+            surface_velocity, fluidity, status, message) result(made)
         real(c_double), intent(in), optional :: x0
             !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
             !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
@@ -353,6 +383,8 @@ contains
         real(c_double), intent(in), optional :: surface_velocity
             !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
             !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
+        integer(c_int32_t), intent(in), optional :: fluidity
+            !! GP_FLUIDITY_..., of materials with nonlocal_amplitude [GP_FLUIDITY_FREE]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_plate) :: made
@@ -374,6 +406,7 @@ contains
         if (present(pivot_y)) made%pivot_y = pivot_y
         if (present(omega)) made%omega = omega
         if (present(surface_velocity)) made%surface_velocity = surface_velocity
+        if (present(fluidity)) made%fluidity = fluidity
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
@@ -386,7 +419,8 @@ contains
             !! velocity, pressure, shear_rate, column]
         integer(c_int32_t), intent(in), optional :: compression !! deflate level, 0 .. 9 [4]
         integer(c_int32_t), intent(in), optional :: single_precision
-            !! 1: floating-point fields as 32 bits; time stays 64 [0]
+            !! 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are rounded to
+            !! 1e-5 spacings, wherever they are, which compresses as well as 32 bits
         integer(c_int64_t), intent(in), optional :: append
             !! 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced [0]
         integer(c_int32_t), intent(out), optional :: status
@@ -423,5 +457,6 @@ contains
         if (c_associated(raw%inertial_number)) call c_f_pointer(raw%inertial_number, view%inertial_number, [raw%count])
         if (c_associated(raw%viscosity)) call c_f_pointer(raw%viscosity, view%viscosity, [raw%count])
         if (c_associated(raw%number_density)) call c_f_pointer(raw%number_density, view%number_density, [raw%count])
+        if (c_associated(raw%fluidity)) call c_f_pointer(raw%fluidity, view%fluidity, [raw%count])
     end subroutine
 end module

@@ -17,6 +17,7 @@ example_options example_defaults(double resolution, double end, const char *outp
     options.resolution = resolution;
     options.end = end;
     options.lift_time = 0.1;
+    options.threads = 1;
     options.mu_s_degrees = 21;
     options.mu_2_degrees = 32;
     options.output = gp_has_feature("hdf5") || !output ? output : "none";

@@ -10,7 +10,7 @@ module example
     type :: example_options
         real(gp_real) :: resolution = 32 !! particles over the reference length
         real(gp_real) :: end = 1 !! s; negative: depends on the case
-        real(gp_real) :: threads = 0 !! 0: the OpenMP default
+        real(gp_real) :: threads = 1 !! 0: the OpenMP default
         real(gp_real) :: lift_time = 0.1_gp_real !! s in which a gate clears the height of its column; 0: no gates;
                                                  !! negative: no option of this example
         real(gp_real) :: mu_s_degrees = 21 !! friction angle at rest

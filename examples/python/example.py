@@ -25,7 +25,7 @@ def parser(about, resolution, end, output):
     add = options.add_argument
     add("--resolution", type=number(1, 1e5, int), default=resolution, help="particles over the reference length")
     add("--end", type=number(1e-9, 1e6), default=end, help="end of the run, s")
-    add("--threads", type=number(0, 1024, int), default=0, help="0 for the OpenMP default")
+    add("--threads", type=number(0, 1024, int), default=1, help="0 for the OpenMP default")
     add("--output", default=output if granperi.has_feature("hdf5") else "none",
         help='file of frames every 0.01 s, "none" for no file')
     add("--lift-time", type=number(0, 1e6), default=0.1, help="s in which a gate clears its column; 0: no gates")

@@ -16,8 +16,7 @@
  *   - Distinct simulations may be used from distinct threads at the same time. One simulation belongs to one
  *     thread at a time.
  *   - After fork(), a child of a parent that has run simulations with several threads does its work in one, with the same
- *     bits: GNU OpenMP does not survive a fork. Where other programs want the processors, use fewer threads or
- *     OMP_WAIT_POLICY=passive.
+ *     bits: the others do not survive a fork.
  *   - The host's floating-point environment (rounding, flush-to-zero, traps, flags) and locale have no effect on results,
  *     files and messages; they are in force inside callbacks, and after a call as they were before.
  *   - No exception, abort, exit, signal or print leaves the library. Messages go to the callback of gp_set_log.
@@ -127,7 +126,10 @@ typedef struct gp_config {
     double gravity_x;            /* m/s2 [0] */
     double gravity_y;            /* m/s2 [-9.81] */
     double sound_speed;          /* m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling
-                                    from its highest to its lowest point, by its initial and plate velocities [0] */
+                                    from its highest to its lowest point, by its initial and plate velocities; or, if
+                                    that is more, 60 x the speed of the hardest blow that it begins with: of a column
+                                    that falls freely, through an opening too, or is thrown, against a plate or another
+                                    column (not with GP_DENSITY_NUMBER). The log says so and what it costs [0] */
     double cfl;                  /* time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0;
                                     0: the scheme's own, 0.8 or of the schemes of [1] 0.2; else 1e-6 .. 2 [0] */
     double time_step;            /* s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY.
@@ -156,8 +158,9 @@ typedef struct gp_config {
                                     one that just spans it has no ends */
     double periodic_x_max;       /* m; the period is at least twice the horizon and the interaction radius and two
                                     spacings more; best a whole number of spacings [0, 0] */
-    int32_t threads;             /* OpenMP threads of this simulation; 0: the OpenMP default; 0 .. 1024 [0]. The
-                                    results are the same bits for any number */
+    int32_t threads;             /* threads that work on this simulation, the calling one among them; 0: OpenMP's default (all
+                                    processors, or OMP_NUM_THREADS); 0 .. 1024 [1]. The results are the same bits for any
+                                    number */
     uint64_t seed;               /* of the jitter [0] */
     double jitter;               /* dl, columns' particles are displaced at random by up to this much in x and y;
                                     0 .. 0.5 (exclusive) [0] */
@@ -191,6 +194,16 @@ typedef struct gp_material {
                                   scheme, else GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow
                                   is mu(I) as well [0] */
     double fluidity_time;      /* s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4] */
+    double k0;              /* sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over
+                               that along the direction in which a column presses; 0: isotropic, or none across as
+                               gp_column.initial_pressure says. Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with
+                               m = friction_factor mu_s, any above 0 where m >= 1. Else than 0 only with
+                               GP_STRESS_ELASTIC. Walls' friction begins unmobilised: side walls bear k0 sigma_v, the base
+                               all of the weight. Below 1 it is also the ratio in which the stresses change where the
+                               material cannot spread, by its shear modulus, (1 - k0) / (1 + k0) of the bulk modulus, at
+                               least .1 (without k0 .3): it stays while walls take weight over, until the material
+                               yields; beside walls as rough as itself it then tends to 1. Columns side by side are in
+                               balance if they have the same one [0] */
 } gp_material;
 
 /* Fills *material with glass beads. size: sizeof(gp_material). */
@@ -320,6 +333,18 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
  * counter-clockwise. gp_set_plate_velocity is this with omega 0. A loaded plate does not turn: GP_E_ARGUMENT. */
 GP_API gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
 
+/* Gravity (m/s2) from now on, for a box that is tilted or shaken, in its own frame, or gravity that sets in or ends. Finite.
+ * Possible at any time, also from a callback, with every scheme. Before the first step it replaces gp_config.gravity_x and
+ * gravity_y: columns begin in balance with it and the sound speed is made for it. After it
+ *   - stresses and velocities are what they were: a jump makes elastic waves as a blow does. Turning it by small angles, such
+ *     as once per step or per 0.1 degrees, does not;
+ *   - gp_state.potential goes on without a jump, so that the energy ledger closes;
+ *   - gp_state.at_rest is 0 for some 90 steps at least. Setting what it is already changes nothing;
+ *   - the sound speed stays: gp_set_log warns if the scene can now fall so fast that it compresses by more than 3 %; then set
+ *     gp_config.sound_speed, 0 is made for the first gravity alone.
+ * Costs about a twentieth of a step. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x, gravity_y). */
+GP_API gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
+
 /* ------------------------------------------------------------------------------------------------ running */
 
 /* Takes n time steps; n >= 0. GP_STOPPED if the callback stopped it. A scene without particles only counts time. A
@@ -361,13 +386,19 @@ enum { GP_LOG_INFO = 0, GP_LOG_WARNING = 1 };
 typedef void (*gp_log)(void *user, int32_t level, const char *text);
 
 /* log NULL: silent, as at the start. What is doubtful but no error is a GP_LOG_WARNING, each kind once per simulation, with
- * its figure and with what to change. At the first step: a sound_speed that nothing sets or below the speeds that the scene
- * can reach, particles within a quarter spacing of a plate's line, a column thinner than 3 spacings, a time step beyond the
- * stable limit. Later: a step taken anew, compression above 3 % (not of the schemes of [1]), a plate in reach of material at
- * more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, more than 10 % of the dissipation by
- * the zero-energy penalty, an energy error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that
- * lie more than 2 % closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three
- * not of the schemes of [1]). */
+ * its figure and with what to change. At the first step:
+ *   - a plate with material only on the side of its body; material within a horizon and a spacing behind a plate that no other
+ *     plate faces, or across its line;
+ *   - a column or set of particles more than half of which has nothing below it in the direction of gravity, neither a plate
+ *     that faces it nor a column that is borne; a scene without material;
+ *   - a sound_speed that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
+ *     plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the stable limit.
+ * Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew, compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]),
+ * a plate in reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
+ * particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy error above 2 %
+ * of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 % closer than their density says
+ * where at least a fifth of them flow (gp_state.volume_drift; these three not of the schemes of [1]).
+ * A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves its cost. */
 GP_API gp_status gp_set_log(gp_sim *sim, gp_log log, void *user);
 
 /* ------------------------------------------------------------------------------------------------ reading */
@@ -444,7 +475,8 @@ typedef struct gp_state {
     /* Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals
      * kinetic + potential + elastic + dissipated + plate_work + energy_error. */
     double kinetic;
-    double potential;     /* gravitational, zero at the lowest face of the initial material */
+    double potential;     /* gravitational, zero at the lowest face of the initial material. gp_set_gravity leaves it as it is:
+                             from there on it is less by what the new gravity has done, and may fall below 0 */
     double elastic;       /* of compression and shear */
     double dissipated;    /* by friction, collisions, walls and the scheme itself */
     double plate_work;    /* done by the material on moving plates */
@@ -472,7 +504,8 @@ typedef struct gp_state {
                                       there rests itself: its kinetic energy is below the same 1e-6, and the material bears
                                       its load within 5 %.
                                       The energy scale is the largest of the initial energy of the ledger and the
-                                      largest kinetic energy so far */
+                                      largest kinetic energy so far; after gp_set_gravity the energy then, with the potential
+                                      from the lowest face of the material on, and the largest kinetic energy since */
     int64_t collisions;            /* colliding pairs so far ([1] 2.9), each step's counted anew */
     double wall_seconds;           /* s of wall-clock time inside the steps so far */
     double sound_speed;            /* m/s, c0 in use */
@@ -515,10 +548,25 @@ typedef struct gp_state {
                                       it; at the start all of these, of the lattice if there are none. 0 where nothing
                                       flows. Layers that keep their height stay within .01; what topples and spreads opens
                                       up, by some 0.5 dl / height. Above .02 gp_set_log warns */
+    double gravity_x, gravity_y;   /* m/s2, in force from here on */
 } gp_state;
 
-/* The state at this instant; state->struct_size has to be set. It costs about as much as a time step. */
+/* Parts of gp_state that take time to find. */
+enum {
+    GP_STATE_DEPOSIT = 1, /* x_left, x_right, peak_x, peak_height, detached */
+    GP_STATE_MARKS = 2,   /* x_q01 .. x_q99 */
+    GP_STATE_DRIFT = 4,   /* volume_drift */
+    GP_STATE_ALL = 7
+};
+
+/* The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second call
+ * without a step between costs nothing. */
 GP_API gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+/* The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger, momentum, speeds,
+ * max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5 % of a time step,
+ * GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where all flows. */
+GP_API gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state);
 
 /* The clock alone, which costs nothing: *time (s), *dt (s, of the last step; 0 before the first) and *step (steps taken) as in
  * gp_state. Any of the pointers may be NULL. */
@@ -598,7 +646,8 @@ typedef struct gp_output {
     uint32_t fields;          /* GP_FIELD_...; x and y come together, so do vx and vy; id and position are always written
                                  [position, velocity, pressure, shear_rate, column] */
     int32_t compression;      /* deflate level, 0 .. 9 [4] */
-    int32_t single_precision; /* 1: floating-point fields as 32 bits; time stays 64 [0] */
+    int32_t single_precision; /* 1: floating-point fields as 32 bits [0]. Times, the state and positions stay 64; positions are
+                                 rounded to 1e-5 spacings, wherever they are, which compresses as well as 32 bits */
     int64_t append;           /* 1: an existing file of this simulation is continued, see gp_output_open; 0: it is replaced
                                  [0] */
 } gp_output;

@@ -41,6 +41,7 @@ void write_scene(CheckpointWriter &file, const Scene &scene) {
         materials.i0.push_back(m.i0);
         materials.nonlocal_amplitude.push_back(m.nonlocal_amplitude);
         materials.fluidity_time.push_back(m.fluidity_time);
+        materials.k0.push_back(m.k0);
     }
     exchange_materials(file, materials);
 
@@ -200,8 +201,8 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
     MaterialTable t;
     exchange_materials(file, t);
     const std::size_t n = t.grain_density.size();
-    for (const auto *array :
-         {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0, &t.nonlocal_amplitude, &t.fluidity_time})
+    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0, &t.nonlocal_amplitude,
+                              &t.fluidity_time, &t.k0})
         check.same_size("materials", *array, n);
     check.require(n > 0, "no material 0");
     for (std::size_t k = 1; k < n; ++k) { // the first one is there
@@ -214,6 +215,7 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
         m.i0 = t.i0[k];
         m.nonlocal_amplitude = t.nonlocal_amplitude[k];
         m.fluidity_time = t.fluidity_time[k];
+        m.k0 = t.k0[k];
         sim.add_material(m);
     }
 }
@@ -330,7 +332,7 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
     check.require(c.reason >= GP_DT_NONE && c.reason <= GP_DT_RETRY, "no such reason of a time step");
     const Ledger &l = w.ledger;
     for (const double value : {l.initial, l.reference_height, l.dissipated, l.penalty, l.walls, l.diffusion, l.spacing,
-                               l.bulk, l.collisions, l.side_walls, l.plate_work, l.largest_kinetic, l.wound})
+                               l.bulk, l.collisions, l.side_walls, l.plate_work, l.scale, l.largest_kinetic, l.level})
         check.finite("ledger", value);
     for (const int64_t number : {c.step, w.collisions, w.retries, w.viscous.newton, w.viscous.linear,
                                  w.viscous.failures, static_cast<int64_t>(w.viscous.last)})
@@ -341,6 +343,10 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
     check.require(w.packing_at_start > 0, "packing_at_start: not above 0");
     check.not_negative("velocity_span", w.velocity_span);
     check.not_negative("fastest", w.fastest);
+    check.finite("gravity/x", w.constants.gravity.x());
+    check.finite("gravity/y", w.constants.gravity.y());
+    check.not_negative("gravity/fall_height", w.constants.fall_height);
+    check.not_negative("gravity/flow_speed", w.constants.flow_speed);
 }
 
 // The lists as they were made, from the positions and plates of then. Afterwards particles and plates are to be set.

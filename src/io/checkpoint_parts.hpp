@@ -13,7 +13,7 @@ namespace gp::io {
 
 struct MaterialTable {
     std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, nonlocal_amplitude,
-        fluidity_time;
+        fluidity_time, k0;
 };
 
 template <class File, class Table> void exchange_materials(File &file, Table &t) {
@@ -26,6 +26,7 @@ template <class File, class Table> void exchange_materials(File &file, Table &t)
     file.array("i0", t.i0);
     file.array("nonlocal_amplitude", t.nonlocal_amplitude);
     file.array("fluidity_time", t.fluidity_time);
+    file.array("k0", t.k0);
 }
 
 // Columns as they were added, and sets of particles with their initial positions and velocities one after the other.
@@ -134,8 +135,14 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
     file.value("collisions", w.ledger.collisions);
     file.value("side_walls", w.ledger.side_walls);
     file.value("plate_work", w.ledger.plate_work);
+    file.value("scale", w.ledger.scale);
     file.value("largest_kinetic", w.ledger.largest_kinetic);
-    file.value("wound", w.ledger.wound);
+    file.value("level", w.ledger.level);
+    file.group("/gravity");
+    file.value("x", w.constants.gravity.x());
+    file.value("y", w.constants.gravity.y());
+    file.value("fall_height", w.constants.fall_height);
+    file.value("flow_speed", w.constants.flow_speed);
     file.group("/so_far");
     file.value("collisions", w.collisions);
     file.value("max_compression", w.max_compression);

@@ -89,7 +89,9 @@ struct EarlierFrames::Impl : Hdf5Writer {
                 !std::equal(expected.begin(), expected.end(), shape.begin() + 1))
                 refuse(name + " has another shape");
             const Id type = own(H5Dget_type(value), "read " + name);
-            if (H5Tget_size(type) != (single ? 4u : 8u))
+            const std::size_t bytes = H5Tget_size(type);
+            const bool is_position = std::strcmp(f.name, "position") == 0; // 0.1 wrote 4 bytes: they become 8
+            if (bytes != (single && !is_position ? 4u : 8u) && !(single && is_position && bytes == 4))
                 refuse("it is of another precision (gp_output.single_precision)");
             elements.push_back({f.name, f.components, std::move(value)});
         }

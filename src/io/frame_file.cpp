@@ -1,6 +1,7 @@
 #include "io/frame_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "error.hpp"
@@ -23,7 +24,14 @@ struct Element {
     Id value; // of a time-dependent element
 
     std::string path() const { return "/particles/all/" + name; }
+    bool is_position() const { return name == "position"; }
 };
+
+// With single precision, positions are kept as 64 bits all the same: 32 would be 5 places for 160 particles in the coordinates
+// of a map. They are rounded to a power of two of at most 1e-5 spacings, so that the rest of the bits compresses to nothing.
+double position_unit(double spacing) {
+    return std::exp2(std::floor(std::log2(1e-5 * spacing)));
+}
 
 } // namespace
 
@@ -32,6 +40,7 @@ struct FrameFile::Impl : Hdf5Writer {
     int64_t count = 0, frames = 0;
     int compression = 0;
     bool single = false, is_open = false;  // open: the files on the disk are ours
+    double unit = 0;                       // m, to which positions are rounded; 0: not at all
     const char *suffix = "";               // of the files until they are published
     std::string file_name, side_file_name; // with it
     int replaced_fd = -1;                  // of the XDMF file that will be replaced: holds its lock
@@ -171,7 +180,7 @@ struct FrameFile::Impl : Hdf5Writer {
     // ---------------------------------------------------------------------------------------------------- layout
 
     hid_t type_of(const Element &element) const {
-        return element.integer ? H5T_STD_I64LE : single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+        return element.integer ? H5T_STD_I64LE : single && !element.is_position() ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     }
 
     // The extent of one frame of an element.
@@ -232,7 +241,7 @@ struct FrameFile::Impl : Hdf5Writer {
         step = make_dataset(home + "step", H5T_STD_I64LE, {}, true, 0, "");
         time = make_dataset(home + "time", H5T_IEEE_F64LE, {}, true, 0, "s");
         for (const Element &element : elements)
-            if (!element.constant && element.name != "position")
+            if (!element.constant && !element.is_position())
                 link_clock(home, element.path());
         if (observable_count > 0)
             link_clock(home, "/observables/state");
@@ -330,9 +339,11 @@ struct FrameFile::Impl : Hdf5Writer {
             return *next++;
         const double *const x = *next++, *const y = *next++;
         packed.resize(static_cast<size_t>(count) * 3);
+        const bool rounded = unit > 0 && element.is_position();
+        const auto stored = [&](double value) { return rounded ? unit * std::nearbyint(value / unit) : value; };
         for (size_t k = 0; k < static_cast<size_t>(count); ++k) {
-            packed[3 * k] = x[k];
-            packed[3 * k + 1] = y[k];
+            packed[3 * k] = stored(x[k]);
+            packed[3 * k + 1] = stored(y[k]);
             packed[3 * k + 2] = 0;
         }
         return packed.data();
@@ -425,7 +436,7 @@ struct FrameFile::Impl : Hdf5Writer {
         const std::string group = frame_group() + "/";
         side.begin_frame(frames, seconds, group + "position");
         for (const Element &element : elements)
-            if (element.name != "position")
+            if (!element.is_position())
                 side.add_field(element.name, element.components, element.integer,
                                element.constant ? element.path() : group + element.name);
         side.end_frame(group + "walls");
@@ -467,6 +478,7 @@ FrameFile::FrameFile(const std::string &path, const FrameHeader &header, std::ve
     impl_->count = header.count;
     impl_->compression = compression;
     impl_->single = single_precision;
+    impl_->unit = single_precision ? position_unit(header.spacing) : 0;
     bool has_position = false;
     for (const FrameField &f : fields) {
         impl_->elements.push_back({f.name, f.unit != nullptr ? f.unit : "", f.components, f.constant, f.integer, Id()});

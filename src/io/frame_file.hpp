@@ -59,7 +59,8 @@ class FrameFile {
 public:
     // Replaces an existing file. (ParaView's reader takes no file whose name contains a colon.) The fields must include
     // a "position" of two components. constant_values: one pointer per component of each constant field, in order.
-    // compression: deflate level, 0 for none. beside: the files are <path>.part and the like until publish().
+    // compression: deflate level, 0 for none. single_precision: all but times, observables and positions as 32 bits; positions to
+    // 1e-5 spacings. beside: the files are <path>.part and the like until publish().
     FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
               const std::vector<const double *> &constant_values, int compression, bool single_precision,
               bool beside = false);

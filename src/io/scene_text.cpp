@@ -48,6 +48,7 @@ void add_material(std::string &text, const gp_material &m) {
     object.value("i0", m.i0);
     object.value("nonlocal_amplitude", m.nonlocal_amplitude);
     object.value("fluidity_time", m.fluidity_time);
+    object.value("k0", m.k0);
     object.end();
 }
 

@@ -61,6 +61,8 @@ template <class Visit> void for_each_observable(const gp_state &s, const Visit &
     visit("centre_y", "m", s.centre_y);
     visit("detached", "", s.detached);
     visit("volume_drift", "", s.volume_drift);
+    visit("gravity_x", "m s-2", s.gravity_x);
+    visit("gravity_y", "m s-2", s.gravity_y);
 }
 
 inline std::vector<Observable> state_observables() {

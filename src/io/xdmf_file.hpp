@@ -103,14 +103,14 @@ public:
         if (!alone)
             lacking_ += "    <Grid Name=\"particles\" GridType=\"Uniform\">\n";
         lacking_ += "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n + "\" NodesPerElement=\"1\"" +
-                    (cells_.empty() ? "/>\n" : ">" + array(cells_, 1, true) + "</Topology>\n") +
-                    "    <Geometry GeometryType=\"XYZ\">" + array(position_path, 2, false) + "</Geometry>\n";
+                    (cells_.empty() ? "/>\n" : ">" + array(cells_, 1, 8, true) + "</Topology>\n") +
+                    "    <Geometry GeometryType=\"XYZ\">" + array(position_path, 2, 8, false) + "</Geometry>\n";
     }
     void add_field(const std::string &name, int components, bool integer, const std::string &path) {
         if (count_ > 0)
             lacking_ += "    <Attribute Name=\"" + xml_text(name) + "\" AttributeType=\"" +
                         (components == 1 ? "Scalar" : "Vector") + "\" Center=\"Node\">" +
-                        array(path, components, integer) + "</Attribute>\n";
+                        array(path, components, integer ? 8 : precision_, integer) + "</Attribute>\n";
     }
     // walls_path: of the array with the points of the walls.
     void end_frame(const std::string &walls_path) {
@@ -212,9 +212,8 @@ private:
 
     static std::string domain_end() { return " </Domain>\n</Xdmf>\n"; }
 
-    std::string array(const std::string &path, int components, bool integer) const {
-        return item(path, std::to_string(count_) + (components == 1 ? "" : " 3"), integer ? "Int" : "Float",
-                    integer ? 8 : precision_);
+    std::string array(const std::string &path, int components, int bytes, bool integer) const {
+        return item(path, std::to_string(count_) + (components == 1 ? "" : " 3"), integer ? "Int" : "Float", bytes);
     }
 
     std::string item(const std::string &path, const std::string &dimensions, const char *type, int precision) const {
@@ -228,7 +227,7 @@ private:
     std::string segments_path_, plate_path_;
     std::size_t segments_ = 0, wall_points_ = 0;
     int64_t count_ = 0;
-    int precision_ = 8;
+    int precision_ = 8; // bytes of a number of a field; positions have 8
     bool has_frames_ = false;
     std::string path_, head_, end_; // the tags before and behind the frames
     std::string lacking_;           // the frames that the file lacks

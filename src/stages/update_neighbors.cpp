@@ -19,7 +19,7 @@ void wrap(World &world) {
     for (int64_t i = 0; i < p.count; ++i)
         if (const double shift = period.shift_of(p.x[i]); shift != 0) {
             p.x[i] -= shift;
-            world.ledger.wound -= world.material_of(i).density * p.volume * world.constants.gravity.x() * shift;
+            world.ledger.level -= world.material_of(i).density * p.volume * world.constants.gravity.x() * shift;
         }
     for (Plate &plate : world.walls.plates)
         plate.wrap(period, world.clock.time);

@@ -87,7 +87,7 @@ TEST(Config, DefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(c.channel_friction, 0);
     EXPECT_EQ(c.periodic_x_min, 0);
     EXPECT_EQ(c.periodic_x_max, 0);
-    EXPECT_EQ(c.threads, 0);
+    EXPECT_EQ(c.threads, 1);
     EXPECT_EQ(c.seed, 0u);
     EXPECT_EQ(c.jitter, 0);
     EXPECT_EQ(c.preset, GP_PRESET_DEFAULT);

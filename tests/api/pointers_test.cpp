@@ -61,6 +61,8 @@ TEST(Pointers, EveryMissingPointerIsNamed) {
         {"dst", [&] { return gp_copy_field(sim, GP_FIELD_X, nullptr, 9); }},
         {"sim", [&] { return gp_get_state(nullptr, &state); }},
         {"state", [&] { return gp_get_state(sim, nullptr); }},
+        {"sim", [&] { return gp_get_state_parts(nullptr, 0, &state); }},
+        {"state", [&] { return gp_get_state_parts(sim, 0, nullptr); }},
         {"sim", [&] { return gp_get_clock(nullptr, &value, &value, nullptr); }},
         {"sim", [&] { return gp_get_surface(nullptr, 1, &value, &value); }},
         {"sim", [&] { return gp_get_surface(nullptr, 0, nullptr, nullptr); }},

@@ -290,6 +290,10 @@ contains
         call expect_error(status, GP_E_STATE, message, "output_close: ")
         state = sim%state()
         there = int(state%step)
+        state = sim%state(parts=GP_STATE_MARKS)
+        call expect(state%step == there .and. state%x_q50 > 0 .and. ieee_is_nan(state%x_left), "a part of the state")
+        state = sim%state(status, message, 8)
+        call expect_error(status, GP_E_ARGUMENT, message, "parts = 0x8")
 
         ! As the library answers: with a checkpoint both work, without one both are unsupported and lose nothing.
         call sim%save("contract_fortran.gp", status, message)

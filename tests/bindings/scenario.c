@@ -46,11 +46,12 @@ static uint64_t hash_of(gp_sim *sim, int64_t n, int32_t lid) {
     }
 }
 
-/* The lid sinks faster and faster: 4 m/s2. */
+/* The lid sinks faster and faster: 4 m/s2. And the scene is tilted. */
 static int32_t drive_lid(void *user, gp_sim *sim) {
     const int32_t *lid = user;
     gp_state state = {.struct_size = sizeof state};
-    return gp_get_state(sim, &state) < 0 || gp_set_plate_velocity(sim, *lid, 0, -4 * state.time) < 0;
+    return gp_get_state(sim, &state) < 0 || gp_set_plate_velocity(sim, *lid, 0, -4 * state.time) < 0 ||
+           gp_set_gravity(sim, 50 * state.time, -9.5) < 0;
 }
 
 static int32_t add_plate(gp_sim *sim, double x0, double y0, double x1, double y1, int32_t friction) {

@@ -55,6 +55,7 @@ contains
         select type (lid => context)
         type is (integer)
             call sim%set_plate_velocity(lid, 0.0_gp_real, -4*state%time)
+            call sim%set_gravity(50*state%time, -9.5_gp_real)
         class default
             stop_run = .true.
         end select

@@ -55,9 +55,13 @@ const Item config_items[] = {D(gp_config, spacing, dl),
                              I(gp_config, implicit_iterations, 20),
                              I(gp_config, allow_unstable_step, 1),
                              I(gp_config, retry_halvings, 3)};
-const Item material_items[] = {
-    D(gp_material, grain_density, 2500), D(gp_material, volume_fraction, 0.6), D(gp_material, grain_diameter, 0.002),
-    D(gp_material, mu_s, 0.38),          D(gp_material, mu_2, 0.64),           D(gp_material, i0, 0.3)};
+const Item material_items[] = {D(gp_material, grain_density, 2500),
+                               D(gp_material, volume_fraction, 0.6),
+                               D(gp_material, grain_diameter, 0.002),
+                               D(gp_material, mu_s, 0.38),
+                               D(gp_material, mu_2, 0.64),
+                               D(gp_material, i0, 0.3),
+                               D(gp_material, k0, 0.6)};
 const Item column_items[] = {D(gp_column, x_min, 3 * dl), D(gp_column, y_min, dl),
                              D(gp_column, width, 6 * dl), D(gp_column, height, 5 * dl),
                              I(gp_column, material, 1),   D(gp_column, vx, 0.5),
@@ -116,7 +120,10 @@ int32_t callback(void *user, gp_sim *sim) {
         ALWAYS(checked(gp_add_column(sim, &column, nullptr)) == GP_E_STATE);
         break;
     case 5: ALWAYS(checked(gp_save(sim, own_file("callback.gp").c_str())) == GP_OK); break;
-    case 6: checked(gp_set_plate_velocity(sim, 0, 0.1, 0)); break;
+    case 6:
+        checked(gp_set_plate_velocity(sim, 0, 0.1, 0));
+        ALWAYS(checked(gp_set_gravity(sim, 0.1 * host.steps_left, -9)) == GP_OK);
+        break;
     case 7: ALWAYS(checked(gp_output_close(sim)) == GP_E_STATE); break;
     default: break;
     }
@@ -275,6 +282,9 @@ void read(Host &host, Bytes &in) {
     gp_particles particles{};
     particles.struct_size = in.below(4) ? sizeof particles : in.byte();
     ALWAYS(checked(gp_get_clock(host.sim, &values[0], nullptr, &n)) == GP_OK);
+    gp_state state{};
+    state.struct_size = in.below(4) ? sizeof state : in.byte();
+    checked(gp_get_state_parts(host.sim, in.byte() % (GP_STATE_ALL + 2), &state));
     checked(gp_get_surface(host.sim, in.below(7) - 1, values, out));
     checked(gp_get_interface(host.sim, in.below(4) - 1, in.below(4) - 1, in.below(6), values, out));
     checked(gp_get_plate_load(host.sim, in.below(5) - 1, &load));
@@ -332,7 +342,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, std::size_t size) {
             break;
         case 12:
             unless_changed(host.sim, [&] {
-                return gp_set_plate_velocity(host.sim, in.below(4) - 1, in.number(0.1), in.number(0.3));
+                const int plate = in.below(5) - 1;
+                const double x = in.number(0.1), y = in.number(0.3);
+                return plate == 3 ? gp_set_gravity(host.sim, 30 * x, -30 * y)
+                                  : gp_set_plate_velocity(host.sim, plate, x, y);
             });
             break;
         case 13: checked(gp_set_callback(host.sim, in.integer(1), callback, &host)); break;

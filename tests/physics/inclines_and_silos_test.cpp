@@ -5,28 +5,76 @@
 
 using namespace test;
 
-// A column with a = .7 against a wall, on an incline of 16 degrees. With a front whose single grains had the friction mu_s the mass
-// ran on, the farther the finer the spacing: 98 % of it within 7.9 lengths at 5 mm. Here, at 7 mm, as at 5 and 2.5 mm: 5.3 to 5.4.
+namespace {
+
+// A column with a = .7 against a wall, on an incline. `bed`: on a layer of the same grains, so thick and a bit longer than they run.
+struct InclinedColumn {
+    static constexpr double length = 0.2, height = 0.14, bed_length = 0.9;
+    InclinedColumn(double angle, double spacing, double bed = 0)
+        : sim([&] {
+              gp_config c = config(spacing);
+              c.gravity_x = 9.81 * std::sin(degrees(angle));
+              c.gravity_y = -9.81 * std::cos(degrees(angle));
+              return c;
+          }()) {
+        gp_material beads;
+        gp_material_init(&beads, sizeof beads);
+        beads.grain_diameter = 0.0007;
+        const int32_t material = sim.material(beads);
+        column = sim.column(0, bed, length, height, material);
+        sim.add(floor_at(0, -0.1, 3));
+        sim.add(plate(0, 0, 0, 3 * height));
+        if (bed > 0)
+            sim.column(0, 0, bed_length, bed, material);
+    }
+    // The distance from the wall within which this share of the column's mass lies.
+    double mark(double share) {
+        const std::vector<double> x = sim.field(GP_FIELD_X), columns = sim.field(GP_FIELD_COLUMN);
+        std::vector<double> own;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            if (columns[i] == column)
+                own.push_back(x[i]);
+        std::sort(own.begin(), own.end());
+        return own[static_cast<std::size_t>(share * static_cast<double>(own.size()))];
+    }
+    Sim sim;
+    int32_t column = 0;
+};
+
+} // namespace
+
+// With a front whose single grains had the friction mu_s the mass ran on, the farther the finer the spacing: 98 % of it within
+// 7.9 lengths at 5 mm. Here, at 7 mm, as at 5 and 2.5 mm: 5.3 to 5.4.
 TEST(InclinedColumn, RunsOutAsFarAsAtFinerSpacings) {
-    const double length = 0.2, height = 0.14, angle = degrees(16);
-    gp_config c = config(length / 28);
-    c.gravity_x = 9.81 * std::sin(angle);
-    c.gravity_y = -9.81 * std::cos(angle);
-    Sim sim(c);
-    gp_material beads;
-    gp_material_init(&beads, sizeof beads);
-    beads.grain_diameter = 0.0007;
-    sim.column(0, 0, length, height, sim.material(beads));
-    sim.add(floor_at(0, -0.1, 3));
-    sim.add(plate(0, 0, 0, 3 * height));
-    sim.run(2);
-    std::vector<double> x = sim.field(GP_FIELD_X);
-    std::sort(x.begin(), x.end());
-    const auto mark = [&](double share) { return x[static_cast<std::size_t>(share * static_cast<double>(x.size()))]; };
-    EXPECT_NEAR(mark(0.98) / length, 5.4, 0.07 * 5.4);
-    EXPECT_NEAR(mark(0.9) / length, 4.2, 0.05 * 4.2);
-    EXPECT_LT(sim.state().detached, 0.02);
-    EXPECT_LT(sim.state().kinetic, 1e-4 * sim.state().dissipated); // what is left is the tail of the arrest
+    InclinedColumn a(16, InclinedColumn::length / 28);
+    a.sim.run(2);
+    EXPECT_NEAR(a.mark(0.98) / a.length, 5.4, 0.07 * 5.4);
+    EXPECT_NEAR(a.mark(0.9) / a.length, 4.2, 0.05 * 4.2);
+    EXPECT_LT(a.sim.state().detached, 0.02);
+    EXPECT_LT(a.sim.state().kinetic, 1e-4 * a.sim.state().dissipated); // what is left is the tail of the arrest
+}
+
+// A thin layer that can be eroded matters little on an incline far below the angle of friction (Mangeney et al. 2010). The friction of
+// fronts was too small on a rigid floor alone: there the mass ran on, over a layer 23 % less far. Now 1 % less at 5 mm, 3 % at 2.5 mm.
+TEST(InclinedColumn, RunsAsFarOverALayerOfItsGrains) {
+    const double spacing = InclinedColumn::length / 40;
+    InclinedColumn rigid(10, spacing), bed(10, spacing, 0.01);
+    const std::vector<double> before = bed.sim.field(GP_FIELD_X);
+    rigid.sim.run(1);
+    bed.sim.run(1);
+    EXPECT_NEAR(bed.mark(0.98), rigid.mark(0.98), 0.1 * rigid.mark(0.98));
+    EXPECT_NEAR(bed.mark(0.9), rigid.mark(0.9), 0.1 * rigid.mark(0.9));
+    // The layer is eroded, and at rest where the flow does not come to.
+    const std::vector<double> after = bed.sim.field(GP_FIELD_X), columns = bed.sim.field(GP_FIELD_COLUMN);
+    int eroded = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        eroded += columns[i] != bed.column && after[i] > before[i] + spacing;
+        if (before[i] > 0.8 && before[i] < 0.85) { // the layer's end is free
+            EXPECT_NEAR(after[i], before[i], 0.1 * spacing);
+        }
+    }
+    EXPECT_GT(eroded, 100); // of 360
+    EXPECT_TRUE(rigid.sim.state().at_rest && bed.sim.state().at_rest);
 }
 
 // A silo, six times as high as wide, whose floor sinks by 1 cm/s: a plug that slides along its walls. With the shear linear from

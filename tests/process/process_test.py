@@ -83,12 +83,12 @@ class Test:
                   run([program, 3], env=environment(OMP_MAX_ACTIVE_LEVELS=str(nested), **more)), end="")
 
     def runtime(self, program, **more):
-        """The file from which the library gets its parallel regions in this host."""
+        """The file from which the library gets OpenMP in this host."""
         said = run([program, 1], env=environment(LD_DEBUG="bindings", **more))
         for line in said.splitlines():
-            if "GOMP_parallel'" in line and "file %s" % self.library.parent in line:
+            if "omp_in_parallel'" in line and "file %s" % self.library.parent in line:
                 return line.split(" to ")[1].split()[0]
-        sys.exit("FAILED: nobody serves GOMP_parallel")
+        sys.exit("FAILED: nobody serves omp_in_parallel")
 
     def region(self):
         program = self.build("region.c", "-fopenmp")

@@ -17,7 +17,7 @@ struct Sheared {
         World &world = *block.world;
         Particles &p = world.particles;
         world.packing_at_start = measure_packing(world, Part::all).number_density;
-        const double rate = 1 / world.constants.time_scale;
+        const double rate = 1 / world.constants.time_scale();
         block.set(p.pressure, [](double, double) { return 1.0; });
         block.set(p.sxy, [](double, double) { return 1.0; }); // mu of 1, above any of the law's
         block.set(p.lxy, [&](double, double) { return rate; });

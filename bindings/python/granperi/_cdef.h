@@ -90,6 +90,9 @@ typedef struct gp_material {
     double mu_s;
     double mu_2;
     double i0;
+    double nonlocal_amplitude;
+    double fluidity_time;
+    double k0;
 } gp_material;
 
 gp_status gp_material_init(gp_material *material, size_t size);
@@ -143,7 +146,13 @@ typedef struct gp_plate {
     double omega;
     const double *knot_angle;
     double surface_velocity;
+    int32_t fluidity;
 } gp_plate;
+
+enum {
+    GP_FLUIDITY_FREE = 0,
+    GP_FLUIDITY_ZERO = 1
+};
 
 gp_status gp_plate_init(gp_plate *plate, size_t size);
 
@@ -164,6 +173,8 @@ gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy);
 
 gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
+
+gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
 
 gp_status gp_step(gp_sim *sim, int64_t n);
 
@@ -197,9 +208,10 @@ gp_status gp_set_log(gp_sim *sim, gp_log log, void *user);
 #define GP_FIELD_INERTIAL_NUMBER 4096
 #define GP_FIELD_VISCOSITY 8192
 #define GP_FIELD_NUMBER_DENSITY 16384
+#define GP_FIELD_FLUIDITY 32768
 #define GP_FIELD_POSITION 12
 #define GP_FIELD_VELOCITY 48
-#define GP_FIELD_ALL 32767
+#define GP_FIELD_ALL 65535
 
 typedef struct gp_particles {
     uint32_t struct_size;
@@ -220,6 +232,7 @@ typedef struct gp_particles {
     const double *inertial_number;
     const double *viscosity;
     const double *number_density;
+    const double *fluidity;
 } gp_particles;
 
 gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles);
@@ -290,9 +303,20 @@ typedef struct gp_state {
     double centre_y;
     double detached;
     double volume_drift;
+    double gravity_x;
+    double gravity_y;
 } gp_state;
 
+enum {
+    GP_STATE_DEPOSIT = 1,
+    GP_STATE_MARKS = 2,
+    GP_STATE_DRIFT = 4,
+    GP_STATE_ALL = 7
+};
+
 gp_status gp_get_state(gp_sim *sim, gp_state *state);
+
+gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state);
 
 gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step);
 

@@ -134,7 +134,7 @@ class Engine:
         if self.threads != 1:
             if _forked_after:
                 raise StateError(f"{name}: this process was forked from one that had run simulations with several threads, "
-                                 "and GNU OpenMP does not survive that: use threads=1, or the start method 'spawn'")
+                                 "and threads do not survive that: use threads=1, or the start method 'spawn'")
             _ran_threads = True
         if self.exports:
             self.before_change(name)

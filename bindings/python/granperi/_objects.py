@@ -185,7 +185,8 @@ def _signed(cls):
 class Material(Parameters):
     """A granular material; the default is glass beads.
 
-    grain_density [kg/m3], volume_fraction, grain_diameter [m], mu_s (friction at I = 0), mu_2 (at large I), i0.
+    grain_density [kg/m3], volume_fraction, grain_diameter [m], mu_s (friction at I = 0), mu_2 (at large I), i0, k0 (side stress
+    over vertical stress with which columns begin; 0: isotropic).
     """
 
     _struct = "gp_material"
@@ -195,6 +196,7 @@ class Material(Parameters):
     mu_s: float
     mu_2: float
     i0: float
+    k0: float
 
 
 @_signed

@@ -269,6 +269,7 @@ class Result:
 # What a frame does not hold: wall-clock time, and what the version that wrote the file did not know.
 _ABSENT = {"wall_seconds": float("nan"), "spacing_dissipated": float("nan"), "centre_x": float("nan"),
            "centre_y": float("nan"), "detached": float("nan"), "volume_drift": float("nan"),
+           "gravity_x": float("nan"), "gravity_y": float("nan"),
            **{name: float("nan") for name in MARKS.values()}}
 _KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
 

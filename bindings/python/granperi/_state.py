@@ -69,6 +69,8 @@ class State:
     centre_y: float
     detached: float
     volume_drift: float
+    gravity_x: float
+    gravity_y: float
 
     @property
     def quantiles(self) -> dict[float, float]:
@@ -86,10 +88,10 @@ MARKS = {int(name[3:]) / 100: name for name in
 _STATE_NAMES = tuple(field.name for field in dataclasses.fields(State))
 
 
-def read_state(sim) -> State:
+def read_state(sim, parts: int = lib.GP_STATE_ALL) -> State:
     struct = ffi.new("gp_state *")
     struct.struct_size = ffi.sizeof("gp_state")
-    check(lib.gp_get_state(sim, struct))
+    check(lib.gp_get_state_parts(sim, parts, struct))
     values = {name: getattr(struct, name) for name in _STATE_NAMES}
     values["at_rest"] = bool(values["at_rest"])
     values["dt_reason"] = StepLimit(values["dt_reason"])

@@ -69,6 +69,7 @@ def test_what_may_be_called_inside(sim):
 
     def look(it):
         it.set_plate_velocity(0, 0.1, 0)
+        it.set_gravity(1, -9)
         assert it.plate_load(0).fy <= 0 and len(it.surface([0])) == 1 and len(it.x) == 50
         for call in (it.step, lambda: it.run(1), lambda: it.add_material(), it.close, lambda: it.set_callback(None)):
             try:
@@ -79,6 +80,7 @@ def test_what_may_be_called_inside(sim):
     sim.set_callback(look)
     sim.step()
     assert len(refused) == 5 and not sim.closed
+    assert (sim.state.gravity_x, sim.state.gravity_y) == (1, -9)
 
 
 def test_wrong_callbacks(sim):

@@ -215,3 +215,28 @@ def test_a_reference_cycle_does_not_keep_it(make_block):
     del sim
     gc.collect()
     assert gone() is None
+
+
+def test_parts_of_the_state_are_those_of_the_state(make_block):
+    with make_block() as sim:
+        sim.step(20)
+        some, whole = sim.state_parts(marks=True), sim.state
+        assert some.quantiles == whole.quantiles == sim.quantiles
+        assert some.kinetic == whole.kinetic and some.at_rest == whole.at_rest
+        assert np.isnan([some.x_left, some.peak_height, some.detached, some.volume_drift]).all()
+        assert sim.state_parts(deposit=True).x_left == whole.x_left
+        assert sim.state_parts(drift=True).volume_drift == whole.volume_drift
+
+
+@needs_hdf5
+def test_single_precision_keeps_positions_in_the_coordinates_of_a_map(tmp_path):
+    east, north = 5e5, 4.2e6
+    with granperi.Simulation(spacing=0.005) as sim:
+        sim.add_column(x_min=east, y_min=north, width=0.08, height=0.05)
+        sim.add_plate(granperi.Plate(x0=east + 1, y0=north, x1=east - 1, y1=north))
+        sim.step(10)
+        with sim.output(tmp_path / "map.h5", single_precision=True) as output:
+            output.write()
+        x, y = np.array(sim.x), np.array(sim.y)
+    with granperi.Result(tmp_path / "map.h5") as result:
+        assert np.abs(result[0].x - x).max() < 1e-3 * 0.005 and np.abs(result[0].y - y).max() < 1e-3 * 0.005

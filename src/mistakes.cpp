@@ -1,0 +1,185 @@
+#include "mistakes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error.hpp"
+#include "scene_falls.hpp"
+#include "sight.hpp"
+
+namespace gp {
+
+namespace {
+
+// How far behind a plate material is looked for, in dl beyond the horizon: nearer than a horizon the plate's ghosts stand where
+// it begins.
+constexpr double look_behind = 1;
+
+// Calls visit(plate, segment) for the wetted lines as they stand.
+template <class Visit> void for_each_segment(const Walls &walls, const Visit &visit) {
+    for (const Facet &facet : walls.facets)
+        visit(facet.plate, facet.segment);
+}
+
+// Calls visit(i, place) for the particles about a segment, and for their images where the segment reaches over an end of the
+// period.
+template <class Visit> void for_each_about(const World &world, const Segment &s, double margin, const Visit &visit) {
+    const Vector end = s.origin + s.length * s.tangent;
+    const Box box{std::min(s.origin.x(), end.x()) - margin, std::max(s.origin.x(), end.x()) + margin,
+                  std::min(s.origin.y(), end.y()) - margin, std::max(s.origin.y(), end.y()) + margin};
+    const double length = world.constants.period.length;
+    for (int side = length > 0 ? -1 : 0; side <= (length > 0 ? 1 : 0); ++side) {
+        const double shift = side * length;
+        world.grid.for_each_run({box.x_min - shift, box.x_max - shift, box.y_min, box.y_max},
+                                [&](int64_t begin, int64_t last) {
+                                    for (int64_t i = begin; i < last; ++i)
+                                        visit(i, Vector(world.particles.x[i] + shift, world.particles.y[i]));
+                                });
+    }
+}
+
+// Does another segment stand between a place behind this one and it, and face the place?
+bool is_faced(const World &world, const Segment &behind, const Vector &at) {
+    const double spacing = world.constants.spacing;
+    const Vector line = at - (behind.distance(at) - 0.01 * spacing) * behind.normal;
+    bool faced = false;
+    for_each_segment(world.walls, [&](int32_t, const Segment &s) {
+        faced = faced || (&s != &behind && crossing(s, at, line, 1e-6 * spacing) >= 0);
+    });
+    return faced;
+}
+
+struct Sides {
+    int64_t front = 0, behind = 0; // particles near the plate
+    int64_t first = -1;            // of those behind
+    int32_t split = -1;            // a body that has particles on both sides
+};
+
+std::vector<Sides> find_sides(const World &world) {
+    const Particles &p = world.particles;
+    const double spacing = world.constants.spacing, reach = world.constants.reach + look_behind * spacing;
+    std::vector<Sides> found(world.walls.plates.size());
+    std::vector<uint8_t> in_front(world.scene->bodies().size());
+    for_each_segment(world.walls, [&](int32_t plate, const Segment &s) {
+        Sides &sides = found[plate];
+        std::fill(in_front.begin(), in_front.end(), uint8_t{0});
+        const auto for_each_beside = [&](const auto &visit) {
+            for_each_about(world, s, reach, [&](int64_t i, const Vector &at) {
+                if (std::abs(s.distance(at)) < reach && s.covers(s.along(at), 0))
+                    visit(i, at);
+            });
+        };
+        for_each_beside([&](int64_t i, const Vector &at) {
+            if (s.distance(at) > 0) {
+                ++sides.front;
+                in_front[p.column[i]] = 1;
+            }
+        });
+        for_each_beside([&](int64_t i, const Vector &at) {
+            if (s.distance(at) > -penetration_allowed * spacing || is_faced(world, s, at))
+                return;
+            if (sides.behind++ == 0)
+                sides.first = i;
+            if (in_front[p.column[i]])
+                sides.split = p.column[i];
+        });
+    });
+    return found;
+}
+
+// Of the plates with material behind them, those where it lies on both sides of the line are told apart from those that have
+// it only there.
+void tell_sides(const World &world, std::vector<std::string> &texts) {
+    const std::vector<Sides> found = find_sides(world);
+    const auto tell = [&](const auto &is_meant, const auto &text_of) {
+        const auto first = std::find_if(found.begin(), found.end(), is_meant);
+        if (first == found.end())
+            return;
+        const int64_t count = std::count_if(first, found.end(), is_meant);
+        std::string text = text_of(static_cast<int>(first - found.begin()), *first);
+        if (count > 1)
+            text += format_text(" (and so of %lld more plates)", static_cast<long long>(count - 1));
+        texts.push_back(std::move(text));
+    };
+    const auto place_of = [&](const Sides &sides) {
+        return format_text("the first at (%g, %g) m", world.particles.x[sides.first], world.particles.y[sides.first]);
+    };
+    tell([](const Sides &s) { return s.behind > 0 && s.front == 0; },
+         [&](int plate, const Sides &s) {
+             return format_text(
+                 "plate %d has material only on the side of its body, %lld particles near it, %s: it acts "
+                 "on its other side alone, on the right of the way from end 0 to end 1. Swap its ends?",
+                 plate, static_cast<long long>(s.behind), place_of(s).c_str());
+         });
+    tell([](const Sides &s) { return s.behind > 0 && s.front > 0 && s.split >= 0; },
+         [&](int plate, const Sides &s) {
+             return format_text(
+                 "column %d lies across the line of plate %d, %lld particles behind it, %s: nothing holds "
+                 "those. Move the plate or the column",
+                 s.split, plate, static_cast<long long>(s.behind), place_of(s).c_str());
+         });
+    tell([](const Sides &s) { return s.behind > 0 && s.front > 0 && s.split < 0; },
+         [&](int plate, const Sides &s) {
+             return format_text("%lld particles begin behind plate %d, on the side of its body, %s: it does not act on "
+                                "them. Move them, or add a plate back to back with it that faces them",
+                                static_cast<long long>(s.behind), plate, place_of(s).c_str());
+         });
+}
+
+void tell_unborne(const Scene &scene, std::vector<std::string> &texts) {
+    const std::vector<double> shares = borne_shares(scene);
+    const auto is_unborne = [](double share) { return 2 * share < 1; };
+    const auto first = std::find_if(shares.begin(), shares.end(), is_unborne);
+    if (first == shares.end())
+        return;
+    const auto body = static_cast<int>(first - shares.begin());
+    const int64_t more = std::count_if(first, shares.end(), is_unborne) - 1;
+    const std::string part = *first > 0 ? format_text("%.3g %% of ", 100 * (1 - *first)) : std::string();
+    const std::string others = more > 0 ? format_text(" (and so of %lld more)", static_cast<long long>(more)) : "";
+    texts.push_back(
+        format_text("%scolumn %d has nothing below it in the direction of gravity%s, neither a plate that "
+                    "faces it nor a column that one bears: it falls for ever. Add a floor, make it longer, or "
+                    "swap its ends",
+                    part.c_str(), body, others.c_str()));
+}
+
+} // namespace
+
+std::vector<std::string> scene_mistakes(const World &world) {
+    std::vector<std::string> texts;
+    if (world.particles.count == 0) {
+        texts.emplace_back("the scene has no material: add a column or particles");
+        return texts;
+    }
+    tell_sides(world, texts);
+    tell_unborne(*world.scene, texts);
+    return texts;
+}
+
+std::string lost_particles(const World &world) {
+    const Constants &c = world.constants;
+    if (c.gravity == Vector::Zero() || world.walls.plates.empty())
+        return {};
+    const Vector up = -c.gravity.normalized();
+    double lowest = INFINITY;
+    for_each_segment(world.walls, [&](int32_t, const Segment &s) {
+        const double begin = up.dot(s.origin);
+        lowest = std::min({lowest, begin, begin + s.length * up.dot(s.tangent)});
+    });
+    lowest -= c.reach;
+    const Particles &p = world.particles;
+    int64_t count = 0, first = -1;
+    for (int64_t i = 0; i < p.count; ++i)
+        if (up.x() * p.x[i] + up.y() * p.y[i] < lowest && up.x() * p.vx[i] + up.y() * p.vy[i] < 0) {
+            if (count++ == 0 || p.id[i] < p.id[first])
+                first = i;
+        }
+    if (count == 0)
+        return {};
+    return format_text(
+        "%lld of %lld particles have left every plate behind at time %g s and fall for ever, one at (%g, %g) "
+        "m: make the plates longer, close the gap that they came through, or add a plate below",
+        static_cast<long long>(count), static_cast<long long>(p.count), world.clock.time, p.x[first], p.y[first]);
+}
+
+} // namespace gp
