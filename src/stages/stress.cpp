@@ -203,8 +203,11 @@ void stress(World &world) {
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.constants.penalty > 0)
         world.images.copy(p.stressed);
-    if (world.walls.in_reach()) // ghosts extrapolate from these
+    if (world.walls.in_reach()) { // ghosts extrapolate from these
         world.images.copy({&p.pressure, &p.density, &p.sxx, &p.sxy});
+        if (world.constants.fluid)
+            world.images.copy(p.fluidity);
+    }
 }
 
 } // namespace gp::stages
