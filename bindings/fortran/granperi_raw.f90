@@ -722,14 +722,14 @@ module granperi_raw
         !> gravity, neither a plate that faces it nor a column that is borne; a scene without material; - a sound_speed
         !> that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
         !> plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the
-        !> stable limit. Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew,
-        !> compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in
-        !> reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
-        !> particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy
-        !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
-        !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
-        !> the schemes of [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves
-        !> its cost.
+        !> stable limit; - a material with nonlocal_amplitude and a spacing of more than half of its grain_diameter.
+        !> Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew, compression above 3
+        !> % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in reach of material
+        !> at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, particles that fall
+        !> below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy error above 2 % of
+        !> the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 % closer than their
+        !> density says where at least a fifth of them flow (gp_state.volume_drift; these three not of the schemes of
+        !> [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves its cost.
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim

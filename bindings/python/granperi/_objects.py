@@ -10,7 +10,7 @@ from typing import Any, Iterator
 
 import numpy as np
 
-from ._enums import Density, InitialPressure, Preset, Stress, Wall, choice
+from ._enums import Density, Fluidity, InitialPressure, Preset, Stress, Wall, choice
 from ._errors import ArgumentError, ArgumentTypeError, check, doubles, near_match, number, pointer, whole
 from ._library import ffi, lib
 
@@ -186,7 +186,8 @@ class Material(Parameters):
     """A granular material; the default is glass beads.
 
     grain_density [kg/m3], volume_fraction, grain_diameter [m], mu_s (friction at I = 0), mu_2 (at large I), i0, k0 (side stress
-    over vertical stress with which columns begin; 0: isotropic).
+    over vertical stress with which columns begin; 0: isotropic). nonlocal_amplitude is A of the granular fluidity (0: the local
+    law; glass beads 0.48), fluidity_time [s] the time in which it follows; take a spacing of at most half a grain with it.
     """
 
     _struct = "gp_material"
@@ -196,6 +197,8 @@ class Material(Parameters):
     mu_s: float
     mu_2: float
     i0: float
+    nonlocal_amplitude: float
+    fluidity_time: float
     k0: float
 
 
@@ -219,13 +222,14 @@ class Column(Parameters):
 class Plate(Parameters):
     """A floor, wall, gate or lid: the wetted line from (x0, y0) to (x1, y1) [m], material on the right of that way.
 
-    friction: "no_slip", "free_slip" or "coulomb" (then wall_mu). It is at rest, or moves at vx, vy [m/s], or by the table
+    friction: "no_slip", "free_slip" or "coulomb" (then wall_mu). fluidity: "free" or "zero", of materials with
+    nonlocal_amplitude: whether it lets the grains in front of it flow, or holds them. It is at rest, or moves at vx, vy [m/s], or by the table
     knot_t [s], knot_x, knot_y [m] (displacements; three arrays of shape (n)), or under normal_pressure [Pa] with
     mass_per_length [kg/m2]. floor, wall and gate make the usual ones, turned the right way.
     """
 
     _struct = "gp_plate"
-    _enums = {"friction": Wall}
+    _enums = {"friction": Wall, "fluidity": Fluidity}
     _arrays = ("knot_t", "knot_x", "knot_y")
     _length = "n_knots"
     x0: float
@@ -241,6 +245,7 @@ class Plate(Parameters):
     knot_y: np.ndarray | None
     normal_pressure: float
     mass_per_length: float
+    fluidity: Fluidity
 
     @classmethod
     def floor(cls, x_left: float, x_right: float, y: float = 0.0, **more: Any) -> "Plate":

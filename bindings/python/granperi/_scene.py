@@ -54,8 +54,8 @@ _LISTS: dict[str, list[str]] = {
     "column": list(Column.names()),
     "particles": ["x", "y", "vx", "vy", "material"],
     "plate": list(Plate.names()),
-    "floor": [*_callable_keys(Plate.floor), "friction", "wall_mu"],
-    "wall": [*_callable_keys(Plate.wall), "friction", "wall_mu"],
+    "floor": [*_callable_keys(Plate.floor), "friction", "wall_mu", "fluidity"],
+    "wall": [*_callable_keys(Plate.wall), "friction", "wall_mu", "fluidity"],
     "gate": [name for name in _callable_keys(Plate.gate) if name != "spacing"],
 }
 _RUN = [field.name for field in dataclasses.fields(Run)]
