@@ -1,77 +1,9 @@
-// The granular fluidity as a program sees it: what is refused, what older programs get, where it is read, and that restarts,
-// threads and retries keep its bits. What it does to a flow is tested by physics/fluidity_test.cpp.
-#include <algorithm>
-
-#include "../support/directory.hpp"
+// The granular fluidity as a program sees it: what is refused, what older programs get, where it is read, and that threads and
+// retries keep its bits. What it does to a flow is tested by physics/fluidity_test.cpp.
+#include "fluidity_support.hpp"
 #include "log_support.hpp"
 
-#ifdef GP_TEST_HDF5
-#include <hdf5.h>
-#endif
-
 using namespace api;
-
-namespace {
-
-// Grains of two spacings.
-gp_material make_fluid(double amplitude = 0.48) {
-    gp_material material = make_material();
-    material.grain_diameter = 2 * spacing;
-    material.nonlocal_amplitude = amplitude;
-    return material;
-}
-
-// A layer between a floor that holds its grains and a lid that drags it slowly, periodic in x.
-constexpr int around = 12, couette_plates = 2;
-
-gp_config couette_config() {
-    gp_config config = make_config();
-    config.sound_speed = 8;
-    config.periodic_x_max = around * spacing;
-    return config;
-}
-
-void add_couette(Sim &sim) {
-    gp_column layer = make_column(around, 8);
-    layer.material = sim.add(make_fluid());
-    sim.add(layer);
-    gp_plate floor = make_plate(around * spacing, 0, 0, 0);
-    floor.fluidity = GP_FLUIDITY_ZERO;
-    sim.add(floor);
-    gp_plate lid = make_plate(0, 8 * spacing, around * spacing, 8 * spacing);
-    lid.normal_pressure = 400;
-    lid.vx = 0.02;
-    sim.add(lid);
-}
-
-// The collapse of the other tests, of a material with a fluidity; a block of beads without falls onto it.
-constexpr int collapse_plates = 3;
-
-void add_fluid_collapse(Sim &sim, int columns = 12, int rows = 10, const gp_material &material = make_fluid()) {
-    add_collapse(sim, 1, 1); // its plates, and a grain of beads
-    gp_column column = make_column(columns, rows, spacing, 0);
-    column.material = sim.add(material);
-    sim.add(column);
-    gp_column block = make_column(4, 3, 3 * spacing, (rows + 1) * spacing);
-    block.vy = -0.5;
-    sim.add(block);
-}
-
-// In the order of id, of the particles of one column.
-std::vector<double> of_column(const Sim &sim, int32_t column, uint32_t field) {
-    const std::vector<double> values = sim.field(field), columns = sim.field(GP_FIELD_COLUMN);
-    std::vector<double> found;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (static_cast<int32_t>(columns[i]) == column)
-            found.push_back(values[i]);
-    return found;
-}
-
-double largest(const std::vector<double> &values) {
-    return *std::max_element(values.begin(), values.end());
-}
-
-} // namespace
 
 // ------------------------------------------------------------------------------------------------- arguments
 
@@ -165,14 +97,13 @@ TEST(FluidityOfOlderPrograms, AMaterialIsOfTheLocalLaw) {
 
 TEST(FluidityOfOlderPrograms, APlatePassesNoFlux) {
     const auto after = [](uint32_t size, int32_t fluidity) {
+        gp_plate floor = couette_floor();
+        floor.fluidity = fluidity;
+        floor.struct_size = size;
         Sim sim(couette_config());
-        add_couette(sim);
-        gp_plate shelf = make_plate(0, 2 * spacing, around * spacing, 2 * spacing); // material below it
-        shelf.fluidity = fluidity;
-        shelf.struct_size = size;
-        sim.add(shelf);
-        EXPECT_EQ(gp_step(sim, 60), GP_OK) << gp_last_error();
-        return snapshot(sim, couette_plates + 1);
+        add_couette(sim, floor);
+        EXPECT_EQ(gp_step(sim, 200), GP_OK) << gp_last_error();
+        return snapshot(sim, couette_plates);
     };
     const uint32_t of_first = offsetof(gp_plate, n_points), before = offsetof(gp_plate, fluidity);
     const std::vector<uint64_t> free = after(sizeof(gp_plate), GP_FLUIDITY_FREE);
@@ -372,72 +303,3 @@ TEST(FluidityLog, TellsOnceThatASpacingIsTooCoarse) {
         },
         0.01);
 }
-
-// ----------------------------------------------------------------------------------------------------- files
-
-#ifdef GP_TEST_HDF5
-
-namespace {
-
-class FluidityFiles : public testing::Test {
-protected:
-    const test::TemporaryDirectory temporary{"granperi_fluidity"};
-    const std::string path = temporary.path() + "/state.gpc", h5 = temporary.path() + "/run.h5";
-
-    // A run that is saved on the way goes on with the bits of one that is not.
-    void check(const gp_config &config, void (*build)(Sim &), int32_t plates) const {
-        for (const int steps : {0, 1, 37, 150}) {
-            Sim sim(config), loaded;
-            build(sim);
-            ASSERT_EQ(gp_step(sim, steps), GP_OK) << gp_last_error();
-            ASSERT_EQ(gp_save(sim, path.c_str()), GP_OK) << gp_last_error();
-            gp_destroy(loaded.handle);
-            ASSERT_EQ(gp_load(path.c_str(), &loaded.handle), GP_OK) << gp_last_error();
-            EXPECT_TRUE(snapshot(loaded, plates) == snapshot(sim, plates)) << "at step " << steps;
-            ASSERT_EQ(gp_step(sim, 60), GP_OK) << gp_last_error();
-            ASSERT_EQ(gp_step(loaded, 60), GP_OK) << gp_last_error();
-            EXPECT_TRUE(snapshot(loaded, plates) == snapshot(sim, plates)) << "60 steps after step " << steps;
-            EXPECT_GT(largest(loaded.field(GP_FIELD_FLUIDITY)), 0);
-        }
-    }
-};
-
-} // namespace
-
-TEST_F(FluidityFiles, CheckpointsOfASlowCellGoOnWithTheSameBits) {
-    check(couette_config(), add_couette, couette_plates);
-}
-
-TEST_F(FluidityFiles, CheckpointsOfACollapseGoOnWithTheSameBits) {
-    gp_config config = make_config();
-    config.jitter = 0.1;
-    check(
-        config, [](Sim &sim) { add_fluid_collapse(sim); }, collapse_plates);
-}
-
-TEST_F(FluidityFiles, ResultFilesHaveItFrameByFrame) {
-    Sim sim(couette_config());
-    add_couette(sim);
-    gp_output output = make_output();
-    output.fields = GP_FIELD_FLUIDITY;
-    ASSERT_EQ(gp_output_open(sim, h5.c_str(), &output), GP_OK) << gp_last_error();
-    std::vector<double> expected;
-    for (int frame = 0; frame < 3; ++frame) {
-        ASSERT_EQ(gp_step(sim, 50), GP_OK);
-        ASSERT_EQ(gp_output_write(sim), GP_OK);
-        const std::vector<double> now = sim.field(GP_FIELD_FLUIDITY);
-        expected.insert(expected.end(), now.begin(), now.end());
-    }
-    ASSERT_EQ(gp_output_close(sim), GP_OK);
-    const hid_t file = H5Fopen(h5.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    const hid_t data = H5Dopen2(file, "/particles/all/fluidity/value", H5P_DEFAULT);
-    ASSERT_GE(data, 0);
-    std::vector<double> found(expected.size());
-    EXPECT_GE(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, found.data()), 0);
-    EXPECT_GE(H5Aexists(data, "unit"), 1);
-    H5Dclose(data);
-    H5Fclose(file);
-    EXPECT_TRUE(found == expected);
-}
-
-#endif

@@ -154,6 +154,21 @@ DrawnPlate draw_plate(Dice &dice, double dl, double speed) {
     return drawn;
 }
 
+// Of a third of the scenes that can have one, materials with a granular fluidity, of any strength and pace. By dice of its own:
+// the scenes are otherwise what they are without.
+void draw_fluidity(uint64_t seed, Drawn &s) {
+    Dice dice(seed + 0x9E3779B97F4A7C15u);
+    if (s.config.preset != GP_PRESET_DEFAULT || s.config.stress != GP_STRESS_ELASTIC || !dice.chance(0.33))
+        return;
+    for (gp_material &m : s.materials)
+        if ((m.mu_s > 0 && m.mu_2 > m.mu_s && dice.chance(0.8)) || dice.chance(0.02)) { // else refused
+            m.nonlocal_amplitude = dice.log_between(1e-2, 10);
+            m.fluidity_time = dice.log_between(1e-7, 1);
+        }
+    for (DrawnPlate &drawn : s.plates)
+        drawn.plate.fluidity = dice.chance(0.5) ? GP_FLUIDITY_ZERO : GP_FLUIDITY_FREE;
+}
+
 Drawn draw(uint64_t seed) {
     Dice dice(seed);
     Drawn s;
@@ -198,6 +213,7 @@ Drawn draw(uint64_t seed) {
         s.config.stress = GP_STRESS_IMPLICIT;
         s.config.delta = dice.log_between(1e-8, 1e-2);
     }
+    draw_fluidity(seed, s);
     return s;
 }
 
