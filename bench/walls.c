@@ -11,7 +11,7 @@
 
 static const char usage[] =
     "usage: walls CASE [options]\n\n"
-    "cases: slide_coulomb, slide_inertial, incline_start, incline_shear, incline_column, silo\n";
+    "cases: slide_coulomb, slide_inertial, incline_start, incline_shear, incline_column, silo, hopper\n";
 
 gp_config walls_config(const choices *c, double spacing) {
     gp_config config;
@@ -69,19 +69,26 @@ int main(int argc, char **argv) {
         void (*run)(const choices *);
         double rows, angle, end; /* its own */
     } cases[] = {
-        {"slide_coulomb", slide_coulomb, 10, 0, 0},    {"slide_inertial", slide_inertial, 10, 0, 0.18},
-        {"incline_start", incline_start, 20, 21.5, 5}, {"incline_shear", incline_shear, 10, 26, 40},
-        {"incline_column", incline_column, 28, 10, 3}, {"silo", silo, 12, 0, 1.5},
+        {"slide_coulomb", slide_coulomb, 10, 0, 0},
+        {"slide_inertial", slide_inertial, 10, 0, 0.18},
+        {"incline_start", incline_start, 20, 21.5, 5},
+        {"incline_shear", incline_shear, 10, 26, 40},
+        {"incline_column", incline_column, 28, 10, 3},
+        {"silo", silo, 12, 0, 1.5},
+        {"hopper", hopper, 10, 0, 0.8},
     };
     const int n = (int)(sizeof cases / sizeof cases[0]);
-    choices c = {NAN, NAN, 0, NAN, 0, 0};
+    choices c = {.rows = NAN, .angle = NAN, .end = NAN, .filling = 5};
     double coulomb = 0;
     const bench_option options[] = {
-        {"--rows", "spacings in the layer, the height of the column, the width of the silo [10, 20, 28, 12]",
+        {"--rows",
+         "spacings in the layer, the height of the column, the width of the silo, the outlet of a hopper [10, 20, 28, "
+         "12, 10]",
          BENCH_WHOLE, &c.rows, 1, 1000},
         {"--angle", "degrees, of the incline [depends on the case]", BENCH_NUMBER, &c.angle, 0, 45},
         {"--jitter", "spacings [0]", BENCH_NUMBER, &c.jitter, 0, 0.3},
         {"--end", "s, end of the run [depends on the case]", BENCH_NUMBER, &c.end, 1e-3, 1e4},
+        {"--filling", "outlets, of a hopper [5]", BENCH_NUMBER, &c.filling, 2, 100},
         {"--coulomb", "1: a floor with the Coulomb friction of the material, of layers that slide [0]", BENCH_WHOLE,
          &coulomb, 0, 1},
         {"--bed", "m, thickness of the layer under the column [0]", BENCH_NUMBER, &c.bed, 0, 1},

@@ -11,10 +11,11 @@
 #define DENSITY 1550.0 /* kg/m3, of the flow */
 
 typedef struct choices {
-    double rows;     /* spacings in the layer, in the height of the column or in the width of the silo */
+    double rows;     /* spacings in the layer, in the height of the column, in the width of the silo or in the outlet */
     double angle;    /* degrees, of the incline */
     double jitter;   /* spacings */
     double end;      /* s */
+    double filling;  /* of a hopper, outlets high */
     int32_t coulomb; /* 1: the floor has the Coulomb friction of the material in place of a rough surface */
     double bed;      /* m, thickness of a layer of the same grains under the column, that can be eroded */
 } choices;
@@ -39,6 +40,8 @@ void incline_start(const choices *c);
 void incline_shear(const choices *c);
 /* A column released on an incline or on a layer of its grains, a wall behind it: where its mass comes to rest. */
 void incline_column(const choices *c);
+/* A silo that empties through an outlet in its floor: the flow rate, and the same in four parts of the time from .2 s on. */
+void hopper(const choices *c);
 /* A tall silo with rough walls whose floor sinks: friction of the walls, what the floor bears. */
 void silo(const choices *c);
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import references as ref
 from run import Program, Run, cheapest_first
 from wall_runs import PROGRAM as WALLS
-from wall_runs import walls
+from wall_runs import hoppers, walls
 
 # Side walls. What counts is channel_friction / channel_width. The paper does not give the width of its channel, so the study
 # SIDE_WALLS varies the ratio. "walls" is a channel ten grains wide whose walls have the friction of glass on Plexiglas,
@@ -365,6 +365,7 @@ def studies() -> dict[str, list[Run]]:
         "couette": [couette(case) for case in COUETTE_CASES],
         "exact": [exact(case, r) for case, (_, _, resolutions, _) in EXACT_CASES.items() for r in resolutions],
         "walls": walls(),
+        "hopper": hoppers(),
     }
 
 

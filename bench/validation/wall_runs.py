@@ -17,6 +17,9 @@ COLUMN_ROWS = (28, 56)  # spacings in the height
 COLUMN_HEIGHT = 0.14  # m
 BED_ANGLE, BED = 10, 0.01  # degrees, m: the column on a layer of its grains
 SILO_ROWS = (12, 24)  # spacings in the width
+HOPPER_ROWS = (10, 20)  # spacings in the outlet
+HOPPER_FILLINGS = (5, 10)  # outlets, height of the filling
+HOPPER_PARTS = 4  # of the time, as the program has them
 
 
 def slide_coulomb(rows: int, coulomb: bool) -> Run:
@@ -48,6 +51,19 @@ def incline_column(angle: float, rows: int, bed: float = 0) -> Run:
 
 def silo(rows: int) -> Run:
     return Run(f"silo_{rows}", "walls", ("silo", "--rows", str(rows)), 4.0 * (rows / 12) ** 3)
+
+
+def hopper(rows: int, filling: float) -> Run:
+    return Run(
+        f"hopper_{rows}_{filling:g}",
+        "walls",
+        ("hopper", "--rows", str(rows), "--filling", f"{filling:g}"),
+        1.7 * filling * (rows / 10) ** 3,
+    )
+
+
+def hoppers() -> list[Run]:
+    return [hopper(rows, filling) for rows in HOPPER_ROWS for filling in HOPPER_FILLINGS]
 
 
 def walls() -> list[Run]:

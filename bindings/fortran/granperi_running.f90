@@ -4,6 +4,7 @@ submodule(granperi_simulation) granperi_running
     use granperi_raw, only: c_create => gp_create, c_destroy => gp_destroy, c_add_material => gp_add_material, &
                             c_add_column => gp_add_column, c_add_particles => gp_add_particles, &
                             c_add_plate => gp_add_plate, c_set_plate_velocity => gp_set_plate_velocity, &
+                            c_set_plate_motion => gp_set_plate_motion, &
                             c_set_gravity => gp_set_gravity, &
                             c_step => gp_step, c_run => gp_run, c_set_callback => gp_set_callback, &
                             c_set_log => gp_set_log, c_load_file => gp_load_file
@@ -164,35 +165,87 @@ contains
     end procedure
 
     module procedure add_plate
-        type(gp_plate) :: with_table
-        real(c_double), allocatable, target :: table(:, :)
+        type(gp_plate) :: with_arrays
+        real(c_double), allocatable, target :: t(:), x(:), y(:), angle(:), line_x(:), line_y(:)
         integer(c_int32_t) :: new, answer
         if (is_missing("add_plate", self, status, message)) return
         if (is_unfilled("add_plate", "gp_plate", plate%struct_size, status, message)) return
-        with_table = plate
-        if (present(knot_t) .and. present(knot_x) .and. present(knot_y)) then
-            if (are_uneven("add_plate", "knot_t, knot_x, knot_y", [size(knot_t, kind=c_size_t), &
-                           size(knot_x, kind=c_size_t), size(knot_y, kind=c_size_t)], status, message)) return
-            table = reshape([knot_t, knot_x, knot_y], [size(knot_t), 3])
-            with_table%n_knots = size(knot_t, kind=c_int64_t)
-            if (with_table%n_knots > 0) then
-                with_table%knot_t = c_loc(table(1, 1))
-                with_table%knot_x = c_loc(table(1, 2))
-                with_table%knot_y = c_loc(table(1, 3))
-            end if
-        else if (present(knot_t) .or. present(knot_x) .or. present(knot_y)) then
-            call report_text(GP_E_ARGUMENT, "add_plate: knot_t, knot_x and knot_y come together, or none of them", &
-                             status, message)
-            return
+        if (.not. have_even_arrays(knot_t, knot_x, knot_y, knot_angle, point_x, point_y, status, message)) return
+        with_arrays = plate
+        t = copy_of(knot_t)
+        x = copy_of(knot_x)
+        y = copy_of(knot_y)
+        angle = copy_of(knot_angle)
+        line_x = copy_of(point_x)
+        line_y = copy_of(point_y)
+        if (present(knot_t)) then
+            with_arrays%n_knots = size(knot_t, kind=c_int64_t)
+            with_arrays%knot_t = c_loc(t)
+            if (present(knot_x)) with_arrays%knot_x = c_loc(x)
+            if (present(knot_y)) with_arrays%knot_y = c_loc(y)
+            if (present(knot_angle)) with_arrays%knot_angle = c_loc(angle)
         end if
-        answer = c_add_plate(self%handle, with_table, new)
+        if (present(point_x)) then
+            with_arrays%n_points = size(point_x, kind=c_int64_t)
+            with_arrays%point_x = c_loc(line_x)
+            with_arrays%point_y = c_loc(line_y)
+        end if
+        answer = c_add_plate(self%handle, with_arrays, new)
         if (present(id)) id = new
         call report("add_plate", answer, status, message)
     end procedure
 
+    !> Which arrays come together, and that they have the same size: else the error of add_plate.
+    logical function have_even_arrays(t, x, y, angle, line_x, line_y, status, message) result(even)
+        real(c_double), intent(in), optional :: t(:), x(:), y(:), angle(:), line_x(:), line_y(:)
+        integer(c_int32_t), intent(out), optional :: status
+        character(*), intent(out), optional :: message
+        even = .false.
+        if ((present(x) .neqv. present(y)) .or. (present(t) .neqv. (present(x) .or. present(angle)))) then
+            call report_text(GP_E_ARGUMENT, "add_plate: knot_t comes with knot_x and knot_y, with knot_angle, or with all "// &
+                             "three, and none of these without it", status, message)
+            return
+        end if
+        if (present(line_x) .neqv. present(line_y)) then
+            call report_text(GP_E_ARGUMENT, "add_plate: point_x and point_y come together, or neither", status, message)
+            return
+        end if
+        if (present(x)) then
+            if (are_uneven("add_plate", "knot_t, knot_x, knot_y", [size(t, kind=c_size_t), size(x, kind=c_size_t), &
+                                                                   size(y, kind=c_size_t)], status, message)) return
+        end if
+        if (present(angle)) then
+            if (are_uneven("add_plate", "knot_t, knot_angle", [size(t, kind=c_size_t), size(angle, kind=c_size_t)], &
+                           status, message)) return
+        end if
+        if (present(line_x)) then
+            if (are_uneven("add_plate", "point_x, point_y", [size(line_x, kind=c_size_t), &
+                                                             size(line_y, kind=c_size_t)], status, message)) return
+            if (size(line_x) == 0) then
+                call report_text(GP_E_ARGUMENT, "add_plate: point_x has the size 0: expected 2 or more points", status, message)
+                return
+            end if
+        end if
+        even = .true.
+    end function
+
+    !> A contiguous copy of an array that may be missing, with an address even if it is empty.
+    function copy_of(array) result(copied)
+        real(c_double), intent(in), optional :: array(:)
+        real(c_double), allocatable :: copied(:)
+        copied = [0.0_c_double]
+        if (.not. present(array)) return
+        if (size(array) > 0) copied = array
+    end function
+
     module procedure set_plate_velocity
         if (is_missing("set_plate_velocity", self, status, message)) return
         call report("set_plate_velocity", c_set_plate_velocity(self%handle, plate, vx, vy), status, message)
+    end procedure
+
+    module procedure set_plate_motion
+        if (is_missing("set_plate_motion", self, status, message)) return
+        call report("set_plate_motion", c_set_plate_motion(self%handle, plate, vx, vy, omega), status, message)
     end procedure
 
     module procedure set_gravity

@@ -20,7 +20,8 @@ module granperi_simulation
         logical :: borrowed = .false. ! given to a callback: not its to destroy
     contains
         procedure, public :: create, destroy, is_created
-        procedure, public :: add_material, add_column, add_particles, add_plate, set_plate_velocity, set_gravity
+        procedure, public :: add_material, add_column, add_particles, add_plate
+        procedure, public :: set_plate_velocity, set_plate_motion, set_gravity
         procedure, public :: run, set_callback, remove_callback, set_log, remove_log
         procedure, public :: state, clock, particles, is_current, copy, copy_field, surface, interface_between, plate_load, plan
         procedure, public :: save => save_file, load => load_file, output_open, output_write, output_close
@@ -44,9 +45,9 @@ module granperi_simulation
 
     abstract interface
         !> Called after every so many steps; stop_run is .false. on entry. sim is valid during the call only, and may be
-        !> read, written to its output and driven by set_plate_velocity and set_gravity. context: as given to set_callback, else not
-        !> associated; the host's own data, to be unpacked by select type and not to be pointed elsewhere (intent(in) would
-        !> say so, but gfortran 12 then takes what it points to for constant, too).
+        !> read, written to its output and driven by set_plate_velocity, set_plate_motion and set_gravity. context: as given to
+        !> set_callback, else not associated; the host's own data, to be unpacked by select type and not to be pointed
+        !> elsewhere (intent(in) would say so, but gfortran 12 then takes what it points to for constant, too).
         subroutine gp_on_step(sim, context, stop_run)
             import :: gp_simulation
             class(gp_simulation), intent(inout) :: sim
@@ -125,14 +126,18 @@ module granperi_simulation
             character(*), intent(out), optional :: message
         end subroutine
 
-        !> knot_t (s), knot_x, knot_y (m): the plate's displacement table, all three or none, of one size. id: from 0 on.
-        module subroutine add_plate(self, plate, knot_t, knot_x, knot_y, id, status, message)
+        !> knot_t (s), knot_x, knot_y (m), knot_angle (rad, counter-clockwise): the table of the plate's motion, of one size;
+        !> knot_angle, or knot_x and knot_y, may be left out, for none. point_x, point_y (m), both or none, of one size: the
+        !> plate is the line through these points, its body on the left of the way; it is closed if the last is the first.
+        !> id: from 0 on.
+        module subroutine add_plate(self, plate, knot_t, knot_x, knot_y, id, status, message, point_x, point_y, knot_angle)
             class(gp_simulation), intent(inout) :: self
             type(gp_plate), intent(in) :: plate
             real(c_double), intent(in), optional :: knot_t(:), knot_x(:), knot_y(:)
             integer(c_int32_t), intent(out), optional :: id
             integer(c_int32_t), intent(out), optional :: status
             character(*), intent(out), optional :: message
+            real(c_double), intent(in), optional :: point_x(:), point_y(:), knot_angle(:)
         end subroutine
 
         !> The host drives the plate at this velocity, m/s.
@@ -140,6 +145,16 @@ module granperi_simulation
             class(gp_simulation), intent(inout) :: self
             integer(c_int32_t), intent(in) :: plate
             real(c_double), intent(in) :: vx, vy
+            integer(c_int32_t), intent(out), optional :: status
+            character(*), intent(out), optional :: message
+        end subroutine
+
+        !> The same for any rigid motion: the plate's pivot moves at (vx, vy), m/s, and the plate turns about it at omega, rad/s,
+        !> counter-clockwise. A plate under a load does not turn: GP_E_ARGUMENT.
+        module subroutine set_plate_motion(self, plate, vx, vy, omega, status, message)
+            class(gp_simulation), intent(inout) :: self
+            integer(c_int32_t), intent(in) :: plate
+            real(c_double), intent(in) :: vx, vy, omega
             integer(c_int32_t), intent(out), optional :: status
             character(*), intent(out), optional :: message
         end subroutine

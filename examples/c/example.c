@@ -118,11 +118,15 @@ void example_log(void *user, int32_t level, const char *text) {
 }
 
 gp_sim *example_create(const example_options *options, double spacing, double grain_diameter) {
-    const double degree = acos(-1.0) / 180;
     gp_config config;
+    CHECK(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
+    return example_create_with(options, config, spacing, grain_diameter);
+}
+
+gp_sim *example_create_with(const example_options *options, gp_config config, double spacing, double grain_diameter) {
+    const double degree = acos(-1.0) / 180;
     gp_material material;
     gp_sim *sim;
-    CHECK(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
     config.spacing = spacing;
     config.threads = (int32_t)options->threads;
     CHECK(gp_create(&config, &sim));
@@ -173,13 +177,40 @@ void example_add_gate(gp_sim *sim, double x, int side, double height, double spa
     CHECK(gp_add_plate(sim, &gate, NULL));
 }
 
+void example_fill(gp_sim *sim, double spacing, double x_min, double x_max, double y_min, double y_max,
+                  int (*inside)(double x, double y, const void *user), const void *user) {
+    const long columns = lround((x_max - x_min) / spacing), rows = lround((y_max - y_min) / spacing);
+    double *x = malloc((size_t)(columns * rows) * sizeof *x), *y = malloc((size_t)(columns * rows) * sizeof *y);
+    long i, j, n = 0;
+    if (!x || !y) {
+        fprintf(stderr, "%s: no memory for %ld particles\n", program, columns * rows);
+        exit(1);
+    }
+    for (j = 0; j < rows; ++j)
+        for (i = 0; i < columns; ++i) {
+            x[n] = x_min + ((double)i + 0.5) * spacing;
+            y[n] = y_min + ((double)j + 0.5) * spacing;
+            n += inside(x[n], y[n], user) != 0;
+        }
+    CHECK(gp_add_particles(sim, 1, n, x, y, NULL, NULL, NULL));
+    free(x);
+    free(y);
+}
+
 /* ----------------------------------------------------------------------------------------------- run */
 
-static gp_state state_of(gp_sim *sim) {
+gp_state example_state(gp_sim *sim) {
     gp_state state;
     state.struct_size = sizeof state;
     CHECK(gp_get_state(sim, &state));
     return state;
+}
+
+gp_load example_load(gp_sim *sim, int32_t plate) {
+    gp_load load;
+    load.struct_size = sizeof load;
+    CHECK(gp_get_plate_load(sim, plate, &load));
+    return load;
 }
 
 static void print_progress(const gp_state *s, double end) {
@@ -221,7 +252,7 @@ void example_run(gp_sim *sim, const example_options *options) {
     double rest_since = 0;
     int was_at_rest = 0;
     long k;
-    gp_state state = state_of(sim);
+    gp_state state = example_state(sim);
     if (file) {
         gp_output output;
         CHECK(gp_output_init(&output, sizeof output));
@@ -230,7 +261,7 @@ void example_run(gp_sim *sim, const example_options *options) {
     }
     for (k = 1; state.time < options->end; ++k) {
         CHECK(gp_run(sim, fmin((double)k * interval, options->end)));
-        state = state_of(sim);
+        state = example_state(sim);
         if (state.at_rest && !was_at_rest)
             rest_since = state.time;
         was_at_rest = state.at_rest;

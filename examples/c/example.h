@@ -48,6 +48,9 @@ void example_log(void *user, int32_t level, const char *text);
  */
 gp_sim *example_create(const example_options *options, double spacing, double grain_diameter);
 
+/* The same with what else of the configuration is not the default's; spacing and threads are set here. */
+gp_sim *example_create_with(const example_options *options, gp_config config, double spacing, double grain_diameter);
+
 /* A rough floor at y = 0 from x_left to x_right. */
 void example_add_floor(gp_sim *sim, double x_left, double x_right);
 
@@ -56,6 +59,13 @@ enum { EXAMPLE_MATERIAL_LEFT, EXAMPLE_MATERIAL_RIGHT };
 /* A smooth gate at x, wetted on the given side, that is lifted off a column of this height. Nothing if lift_time is 0.
  */
 void example_add_gate(gp_sim *sim, double x, int side, double height, double spacing, double lift_time);
+
+/* Particles of material 1 at rest on the lattice of the spacing, within the box and where inside(x, y, user) is not 0. */
+void example_fill(gp_sim *sim, double spacing, double x_min, double x_max, double y_min, double y_max,
+                  int (*inside)(double x, double y, const void *user), const void *user);
+
+gp_state example_state(gp_sim *sim);
+gp_load example_load(gp_sim *sim, int32_t plate);
 
 /* Runs to options->end with a frame every 0.01 s and prints the summary: lines of "name value unit". */
 void example_run(gp_sim *sim, const example_options *options);

@@ -5,7 +5,7 @@ module example
     implicit none
     private
     public :: example_options, example_extra, parse_options, stop_with
-    public :: create_beads, add_floor, add_gate, run_example, material_left, material_right
+    public :: create_beads, add_floor, add_gate, fill, run_example, line, material_left, material_right
 
     type :: example_options
         real(gp_real) :: resolution = 32 !! particles over the reference length
@@ -187,6 +187,32 @@ contains
         y0 = merge(0.0_gp_real, clear, side == material_right)
         y1 = merge(clear, 0.0_gp_real, side == material_right)
         call sim%add_plate(gp_plate(x0=x, y0=y0, x1=x, y1=y1, friction=GP_WALL_FREE_SLIP), t, dx, dy)
+    end subroutine
+
+    !> Particles of material 1 at rest on the lattice of the spacing, within the box and where inside(x, y) is true.
+    subroutine fill(sim, spacing, x_min, x_max, y_min, y_max, inside)
+        type(gp_simulation), intent(inout) :: sim
+        real(gp_real), intent(in) :: spacing, x_min, x_max, y_min, y_max
+        interface
+            logical function inside(x, y)
+                import :: gp_real
+                real(gp_real), intent(in) :: x, y
+            end function
+        end interface
+        real(gp_real), allocatable :: x(:), y(:)
+        integer :: columns, rows, i, j, n
+        columns = nint((x_max - x_min)/spacing)
+        rows = nint((y_max - y_min)/spacing)
+        allocate (x(columns*rows + 1), y(columns*rows + 1))
+        n = 0
+        do j = 1, rows
+            do i = 1, columns
+                x(n + 1) = x_min + (i - 0.5_gp_real)*spacing
+                y(n + 1) = y_min + (j - 0.5_gp_real)*spacing
+                if (inside(x(n + 1), y(n + 1))) n = n + 1
+            end do
+        end do
+        call sim%add_particles(x(1:n), y(1:n), material=1)
     end subroutine
 
     ! ----------------------------------------------------------------------------------------------- run

@@ -4,6 +4,8 @@ import math
 import sys
 import time
 
+import numpy as np
+
 import granperi
 
 
@@ -19,8 +21,8 @@ def number(low, high, kind=float):
     return parse
 
 
-def parser(about, resolution, end, output):
-    """The options that every example takes; an end of None depends on the case."""
+def parser(about, resolution, end, output, gates=True):
+    """The options that every example takes; an end of None depends on the case; not all have gates."""
     options = argparse.ArgumentParser(description=about, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     add = options.add_argument
     add("--resolution", type=number(1, 1e5, int), default=resolution, help="particles over the reference length")
@@ -28,7 +30,8 @@ def parser(about, resolution, end, output):
     add("--threads", type=number(0, 1024, int), default=1, help="0 for the OpenMP default")
     add("--output", default=output if granperi.has_feature("hdf5") else "none",
         help='file of frames every 0.01 s, "none" for no file')
-    add("--lift-time", type=number(0, 1e6), default=0.1, help="s in which a gate clears its column; 0: no gates")
+    if gates:
+        add("--lift-time", type=number(0, 1e6), default=0.1, help="s in which a gate clears its column; 0: no gates")
     add("--mu-s-degrees", type=number(0, 89), default=21, help="friction angle at rest")
     add("--mu-2-degrees", type=number(0, 89), default=32, help="friction angle of fast flow")
     return options
@@ -40,6 +43,16 @@ def create(options, spacing, grain_diameter):
     sim.add_material(grain_diameter=grain_diameter, mu_s=math.tan(math.radians(options.mu_s_degrees)),
                      mu_2=math.tan(math.radians(options.mu_2_degrees)))
     return sim
+
+
+def fill(sim, x_min, x_max, y_min, y_max, inside):
+    """Particles of material 1 at rest on the lattice of the spacing, within the box and where inside(x, y) is true."""
+    spacing = sim.config.spacing
+    x = x_min + (np.arange(round((x_max - x_min) / spacing)) + 0.5) * spacing
+    y = y_min + (np.arange(round((y_max - y_min) / spacing)) + 0.5) * spacing
+    x, y = (values.ravel() for values in np.meshgrid(x, y))
+    here = inside(x, y)
+    sim.add_particles(x[here], y[here], material=1)
 
 
 def add_gate(sim, x, material, height, options):

@@ -1,7 +1,7 @@
 !> The contract of the Fortran module. Without an argument: every check; with one: a program that uses it wrongly.
 module checks
     use, intrinsic :: iso_c_binding
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
     use granperi
     implicit none
     integer :: failures = 0
@@ -108,10 +108,25 @@ contains
                                message=message)
         call expect_error(status, GP_E_ARGUMENT, message, "x, vx, vy have the sizes 1, 1, 2")
         call sim%add_plate(gp_plate(x0=1.0_gp_real), [0.0_gp_real, 1.0_gp_real], status=status, message=message)
-        call expect_error(status, GP_E_ARGUMENT, message, "knot_t, knot_x and knot_y come together")
+        call expect_error(status, GP_E_ARGUMENT, message, "knot_t comes with knot_x and knot_y, with knot_angle")
         call sim%add_plate(gp_plate(x0=1.0_gp_real), [0.0_gp_real, 1.0_gp_real], [0.0_gp_real], [0.0_gp_real], &
                            status=status, message=message)
         call expect_error(status, GP_E_ARGUMENT, message, "have the sizes 2, 1, 1")
+        call sim%add_plate(gp_plate(x0=1.0_gp_real), knot_angle=short, status=status, message=message)
+        call expect_error(status, GP_E_ARGUMENT, message, "none of these without it")
+        call sim%add_plate(gp_plate(x0=1.0_gp_real), [0.0_gp_real], knot_angle=short, status=status, message=message)
+        call expect_error(status, GP_E_ARGUMENT, message, "knot_t, knot_angle have the sizes 1, 7")
+        call sim%add_plate(gp_plate(), point_x=short, status=status, message=message)
+        call expect_error(status, GP_E_ARGUMENT, message, "point_x and point_y come together")
+        call sim%add_plate(gp_plate(), point_x=short, point_y=[1.0_gp_real], status=status, message=message)
+        call expect_error(status, GP_E_ARGUMENT, message, "point_x, point_y have the sizes 7, 1")
+        call sim%add_plate(gp_plate(), point_x=short(1:0), point_y=short(1:0), status=status, message=message)
+        call expect_error(status, GP_E_ARGUMENT, message, "expected 2 or more points")
+        call sim%add_plate(gp_plate(), point_x=[0.0_gp_real, 1.0_gp_real], point_y=[0.0_gp_real, ieee_value(1.0_gp_real, &
+                           ieee_quiet_nan)], status=status, message=message)
+        call expect_error(status, GP_E_ARGUMENT, message, "gp_plate.point_y[1]")
+        call sim%set_plate_motion(0, 0.0_gp_real, 0.0_gp_real, 1.0_gp_real, status, message)
+        call expect_error(status, GP_E_ARGUMENT, message, "plate = 0")
         call sim%add_column(gp_column(width=0.04_gp_real, height=0.02_gp_real), id)
         call sim%copy_field(GP_FIELD_X, short, status, message)
         call expect_error(status, GP_E_ARGUMENT, message, "values has the size 7: expected 8")
@@ -177,6 +192,31 @@ contains
                     "the interface is where the columns touch, NaN elsewhere")
         call expect(index(gp_version_string(), ".") > 0, "the version is text")
         call expect(.not. gp_has_feature("wings"), "no such feature")
+    end subroutine
+
+    !> A square without material, turned by omega, by a table and by the host: about its pivot, which is a corner.
+    subroutine check_turns()
+        type(gp_simulation) :: sim
+        type(gp_load) :: load
+        real(gp_real), parameter :: x(5) = [0.0_gp_real, 0.0_gp_real, 1.0_gp_real, 1.0_gp_real, 0.0_gp_real]
+        real(gp_real), parameter :: y(5) = [0.0_gp_real, 1.0_gp_real, 1.0_gp_real, 0.0_gp_real, 0.0_gp_real]
+        real(gp_real) :: strided(2, 5)
+        integer :: by_omega, by_table, by_host, k
+        strided(1, :) = x
+        strided(2, :) = y
+        call sim%create(gp_config(spacing=0.01_gp_real, sound_speed=10.0_gp_real, threads=1))
+        call sim%add_plate(gp_plate(omega=2.0_gp_real), point_x=x, point_y=y, id=by_omega)
+        call sim%add_plate(gp_plate(pivot_x=3.0_gp_real, surface_velocity=1.0_gp_real), [0.0_gp_real, 1.0_gp_real], &
+                           knot_angle=[0.0_gp_real, 2.0_gp_real], point_x=strided(1, :) + 3, point_y=strided(2, :), id=by_table)
+        call sim%add_plate(gp_plate(pivot_x=6.0_gp_real), point_x=x + 6, point_y=y, id=by_host)
+        call sim%set_plate_motion(by_host, 0.5_gp_real, 0.0_gp_real, 2.0_gp_real)
+        call sim%run(0.5_gp_real)
+        do k = by_omega, by_host
+            load = sim%plate_load(k)
+            call expect(abs(load%angle - 1) < 1e-12_gp_real, "a plate has turned")
+            call expect(abs(load%dx - merge(0.25_gp_real, 0.0_gp_real, k == by_host)) < 1e-12_gp_real, "its pivot has moved")
+            call expect(abs(load%torque_pivot) <= 0 .and. abs(load%impulse_torque) <= 0, "nothing resists it")
+        end do
     end subroutine
 
     subroutine look(sim, context, stop_run)
@@ -350,6 +390,7 @@ program contract
         call check_structs()
         call check_errors()
         call check_reading()
+        call check_turns()
         call check_callbacks()
         call check_files()
         call check_life()

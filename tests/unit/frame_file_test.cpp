@@ -144,6 +144,7 @@ TEST_F(FrameFileTest, ValuesAreExact) {
             run.file->close();
             expect_good(50, 4, single);
             const Reader r(h5);
+            EXPECT_EQ(r.stored_type("/particles/all/position/value"), "f64");
             EXPECT_EQ(r.stored_type("/particles/all/velocity/value"), single ? "f32" : "f64");
             EXPECT_EQ(r.stored_type(view(3, "velocity")), single ? "f32" : "f64");
             EXPECT_EQ(r.stored_type("/particles/all/position/time"), "f64");

@@ -9,8 +9,9 @@ from ._errors import (ArgumentError, ArgumentTypeError, DivergedError, Error, Fi
 from ._estimate import Estimate, estimate
 from ._library import lib as _lib
 from ._library import text_of as _text_of
-from ._objects import Column, Config, Material, Plate
+from ._objects import Column, Config, Material
 from ._output import Output
+from ._plate import Plate
 from ._result import Result, Snapshot
 from ._scene import Run, Scene, SceneError
 from ._simulation import Simulation

@@ -98,8 +98,8 @@ def _updater(axes, discs, line, plates, colours) -> Callable[[_Drawn], None]:
         discs.set_offsets(np.column_stack([one.x, one.y]))
         discs.set_array(plot._drawable(one.values, colours[1]))
         line.set_data(*one.line)
-        for plate, (x0, y0, x1, y1) in zip(plates, one.plates):
-            plate.set_data([x0, x1], [y0, y1])
+        for plate, points in zip(plates, one.plates):
+            plate.set_data(*points.T)
         plot._time_text(axes, one.time)
 
     return show

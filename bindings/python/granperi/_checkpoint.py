@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from ._errors import FileError
-from ._objects import Column, Config, Material, Plate
+from ._objects import Column, Config, Material
+from ._plate import Plate
 
 
 def scene_in(path: str) -> tuple[Config, list[Material], "list[Column | int]", list[Plate]]:
@@ -48,12 +49,26 @@ def _column(row: dict[str, Any]) -> "Column | int":
 
 
 def _plates(group: Any) -> list[Plate]:
-    knots = [group[name][()] for name in Plate._arrays]
-    plates, begin = [], 0
-    numbers = tuple(name for name in Plate.names() if name not in Plate._arrays)
-    for row, n in zip(_rows(group, numbers), group["n_knots"][()].tolist()):
-        if n:
-            row.update({name: values[begin:begin + n] for name, values in zip(Plate._arrays, knots)})
+    """The arrays of all plates stand one after the other; a straight plate has two points, which are its ends."""
+    arrays = {name: group[name][()] for name in Plate._arrays}
+    taken = dict.fromkeys(arrays, 0)
+
+    def take(name: str, n: int) -> np.ndarray:
+        begin = taken[name]
+        taken[name] += n
+        return arrays[name][begin:begin + n]
+
+    numbers = tuple(name for name in Plate.names() if name not in Plate._arrays and name not in _ENDS)
+    plates = []
+    for row, counts in zip(_rows(group, numbers), _rows(group, ("n_points", "n_knots", "n_knot_angles"))):
+        x, y = (take(name, counts["n_points"] or 2) for name in ("point_x", "point_y"))
+        row.update({"point_x": x, "point_y": y} if counts["n_points"] else dict(zip(_ENDS, (x[0], y[0], x[1], y[1]))))
+        if counts["n_knots"]:
+            row.update({name: take(name, counts["n_knots"]) for name in ("knot_t", "knot_x", "knot_y")})
+        if counts["n_knot_angles"]:
+            row["knot_angle"] = take("knot_angle", counts["n_knot_angles"])
         plates.append(Plate(**row))
-        begin += n
     return plates
+
+
+_ENDS = ("x0", "y0", "x1", "y1")

@@ -1,17 +1,16 @@
-"""Config, Material, Column and Plate: keyword objects whose defaults are the library's own."""
+"""Config, Material and Column: keyword objects whose defaults are the library's own. Plate is in _plate.py."""
 from __future__ import annotations
 
 import copy
 import enum
 import inspect
 import keyword
-import math
 from typing import Any, Iterator
 
 import numpy as np
 
-from ._enums import Density, Fluidity, InitialPressure, Preset, Stress, Wall, choice
-from ._errors import ArgumentError, ArgumentTypeError, check, doubles, near_match, number, pointer, whole
+from ._enums import Density, InitialPressure, Preset, Stress, choice
+from ._errors import ArgumentTypeError, check, doubles, near_match, number, pointer, whole
 from ._library import ffi, lib
 
 
@@ -23,9 +22,13 @@ class Parameters:
 
     _struct: str
     _enums: dict[str, type[enum.IntEnum]] = {}
-    _arrays: tuple[str, ...] = ()  # all of one length, in the field _length
-    _length = ""
+    _tables: dict[str, tuple[str, ...]] = {}  # arrays of one length each, by the field that has their length
+    _arrays: tuple[str, ...] = ()  # all of these
+    _also: tuple[str, ...] = ()  # keywords that stand for several parameters
     _values: dict[str, Any]
+
+    def __init_subclass__(cls) -> None:
+        cls._arrays = tuple(name for table in cls._tables.values() for name in table)
 
     def __init__(self, **values: Any):
         object.__setattr__(self, "_values", dict(self._defaults()))
@@ -46,7 +49,7 @@ class Parameters:
 
     def _set(self, name: str, value: Any) -> None:
         if name not in self._values:
-            raise ArgumentTypeError(_unknown(type(self).__name__, name, self._values))
+            raise ArgumentTypeError(self._unknown(name))
         full = f"{self._struct}.{name}"
         if name in self._arrays:
             value = None if value is None else doubles(full, value).copy()
@@ -60,6 +63,10 @@ class Parameters:
             value = whole(full, value)
         self._values[name] = value
 
+    @classmethod
+    def _unknown(cls, name: str) -> str:
+        return f"{cls.__name__} has no '{name}': {near_match(name, [*cls.names(), *cls._also])}"
+
     def __getattr__(self, name: str) -> Any:
         values = object.__getattribute__(self, "__dict__").get("_values", {})
         if name in values:
@@ -68,11 +75,11 @@ class Parameters:
             return kind(value) if kind and value in list(kind) else value
         if name.startswith("__"):
             raise AttributeError(name)
-        raise AttributeError(_unknown(type(self).__name__, name, values))
+        raise AttributeError(self._unknown(name))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name not in self._values:
-            raise AttributeError(_unknown(type(self).__name__, name, self._values))
+        if name not in self._values and name not in self._also:
+            raise AttributeError(self._unknown(name))
         self._set(name, value)
 
     def __dir__(self) -> list[str]:
@@ -112,14 +119,10 @@ class Parameters:
         """The struct, and what has to live as long as it."""
         struct = _initialised(self._struct, *self._init_arguments())
         keep = []
-        lengths = {name: len(self._values[name]) for name in self._arrays if self._values[name] is not None}
-        if lengths:
-            if len(set(lengths.values())) > 1 or len(lengths) < len(self._arrays):
-                missing = [name for name in self._arrays if name not in lengths]
-                raise ArgumentTypeError(
-                    f"{self._struct}: expected {', '.join(self._arrays)} of one length, got "
-                    + ", ".join([f"{name} of {n}" for name, n in lengths.items()] + [f"no {name}" for name in missing]))
-            setattr(struct, self._length, next(iter(lengths.values())))
+        for length, names in self._tables.items():
+            lengths = {name: len(self._values[name]) for name in names if self._values[name] is not None}
+            if lengths:
+                setattr(struct, length, self._length_of(names, lengths))
         for name, value in self._values.items():
             if name in self._arrays:
                 if value is not None:
@@ -135,6 +138,19 @@ class Parameters:
                                         f"{' and is not below 0' if value < 0 else ''}") from None
         return struct, keep
 
+    def _length_of(self, names: tuple[str, ...], lengths: dict[str, int]) -> int:
+        needed = [name for name in names if self._is_needed(name, lengths)]
+        missing = [name for name in needed if name not in lengths]
+        if missing or len(set(lengths.values())) > 1:
+            raise ArgumentTypeError(
+                f"{self._struct}: expected {', '.join(dict.fromkeys([*needed, *lengths]))} of one length, got "
+                + ", ".join([f"{name} of {n}" for name, n in lengths.items()] + [f"no {name}" for name in missing]))
+        return next(iter(lengths.values()))
+
+    def _is_needed(self, name: str, given: dict[str, int]) -> bool:
+        """Whether this array has to be there if those are."""
+        return True
+
     def _init_arguments(self) -> tuple:
         return ()
 
@@ -143,10 +159,6 @@ def _shown(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"<{len(value)} values>"
     return repr(value.name.lower()) if isinstance(value, enum.Enum) else repr(value)
-
-
-def _unknown(owner: str, name: str, valid) -> str:
-    return f"{owner} has no '{name}': {near_match(name, valid)}"
 
 
 def _types(struct: str) -> dict:
@@ -168,7 +180,7 @@ def _defaults_of(cls, *more) -> dict[str, Any]:
     if key not in _cache:
         struct = _initialised(cls._struct, *more)
         _cache[key] = {name + "_" * keyword.iskeyword(name): None if name in cls._arrays else getattr(struct, name)
-                       for name in _types(cls._struct) if name not in ("struct_size", cls._length)}
+                       for name in _types(cls._struct) if name not in ("struct_size", *cls._tables)}
     return _cache[key]
 
 
@@ -176,7 +188,7 @@ def _signed(cls):
     """Shows the parameters and their defaults in help() and in the hints of editors."""
     parameters = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=value,
                                     annotation=cls.__annotations__.get(name, inspect.Parameter.empty))
-                  for name, value in cls._defaults().items()]
+                  for name, value in [*cls._defaults().items(), *((also, None) for also in cls._also)]]
     cls.__signature__ = inspect.Signature(parameters)
     return cls
 
@@ -216,68 +228,6 @@ class Column(Parameters):
     vx: float
     vy: float
     initial_pressure: InitialPressure
-
-
-@_signed
-class Plate(Parameters):
-    """A floor, wall, gate or lid: the wetted line from (x0, y0) to (x1, y1) [m], material on the right of that way.
-
-    friction: "no_slip", "free_slip" or "coulomb" (then wall_mu). fluidity: "free" or "zero", of materials with
-    nonlocal_amplitude: whether it lets the grains in front of it flow, or holds them. It is at rest, or moves at vx, vy [m/s], or by the table
-    knot_t [s], knot_x, knot_y [m] (displacements; three arrays of shape (n)), or under normal_pressure [Pa] with
-    mass_per_length [kg/m2]. floor, wall and gate make the usual ones, turned the right way.
-    """
-
-    _struct = "gp_plate"
-    _enums = {"friction": Wall, "fluidity": Fluidity}
-    _arrays = ("knot_t", "knot_x", "knot_y")
-    _length = "n_knots"
-    x0: float
-    y0: float
-    x1: float
-    y1: float
-    friction: Wall
-    wall_mu: float
-    vx: float
-    vy: float
-    knot_t: np.ndarray | None
-    knot_x: np.ndarray | None
-    knot_y: np.ndarray | None
-    normal_pressure: float
-    mass_per_length: float
-    fluidity: Fluidity
-
-    @classmethod
-    def floor(cls, x_left: float, x_right: float, y: float = 0.0, **more: Any) -> "Plate":
-        """A floor at the height y [m] from x_left to x_right [m], material above it."""
-        left, right = sorted((number("x_left", x_left), number("x_right", x_right)))
-        return cls(**{"x0": right, "y0": y, "x1": left, "y1": y, **more})
-
-    @classmethod
-    def wall(cls, x: float, y_bottom: float, y_top: float, material: str = "right", **more: Any) -> "Plate":
-        """An upright wall at x [m] with the material on its "left" or "right"."""
-        if not isinstance(material, str) or material not in ("left", "right"):
-            raise ArgumentTypeError(f"material = {material!r}: expected 'left' or 'right', the wetted side of the wall")
-        ends = sorted((number("y_bottom", y_bottom), number("y_top", y_top)), reverse=material == "left")
-        return cls(**{"x0": x, "y0": ends[0], "x1": x, "y1": ends[1], **more})
-
-    @classmethod
-    def gate(cls, x: float, height: float, lift_time: float, material: str = "right", spacing: float = 0.0025,
-             **more: Any) -> "Plate":
-        """A smooth upright gate on the floor y = 0 that is lifted with uniform acceleration.
-
-        It clears the height [m] of its column within lift_time [s], and goes on until it is six spacings [m] above it.
-        """
-        values = {"height": height, "lift_time": lift_time, "spacing": spacing}
-        height, lift_time, spacing = (number(name, value) for name, value in values.items())
-        for name, value in (("height", height), ("lift_time", lift_time), ("spacing", spacing)):
-            if not 0 < value < math.inf:
-                raise ArgumentError(f"{name} = {value:g}: expected a finite number > 0")
-        clear = height + 6 * spacing
-        part = np.arange(41) / 40
-        plate = cls.wall(x, 0.0, clear, material, **{"friction": "free_slip", **more})
-        return plate.replace(knot_t=part * (lift_time * math.sqrt(clear / height)), knot_x=0 * part,
-                             knot_y=part * part * clear)
 
 
 @_signed

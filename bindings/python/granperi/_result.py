@@ -1,6 +1,7 @@
 """Result files, and one look at a simulation or at a frame of a file alike."""
 from __future__ import annotations
 
+import functools
 import json
 import os
 from typing import TYPE_CHECKING, Any, Iterator
@@ -9,7 +10,8 @@ import numpy as np
 
 from ._enums import FIELD_NAMES, StepLimit
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
-from ._objects import Material, Plate
+from ._objects import Material
+from ._plate import Plate
 from ._simulation import Simulation
 from ._state import MARKS, History, State
 
@@ -66,8 +68,8 @@ class Snapshot:
     def _friction_factor(self) -> float:
         raise NotImplementedError
 
-    def plate_lines(self) -> list[tuple[float, float, float, float]]:
-        """x0, y0, x1, y1 [m] of each plate where it is now, as far as that is known."""
+    def plate_lines(self) -> list[np.ndarray]:
+        """The line of each plate where it is now, as far as that is known: m, shape (number of its points, 2)."""
         raise NotImplementedError
 
     @property
@@ -109,9 +111,9 @@ class LiveSnapshot(Snapshot):
     def _friction_factor(self) -> float:
         return self._sim.config.friction_factor
 
-    def plate_lines(self) -> list[tuple[float, float, float, float]]:
+    def plate_lines(self) -> list[np.ndarray]:
         loads = [self._sim.plate_load(k) for k in range(len(self._sim._plates))]
-        return [(p.x0 + at.dx, p.y0 + at.dy, p.x1 + at.dx, p.y1 + at.dy) for p, at in zip(self._sim._plates, loads)]
+        return [plate.placed(at.dx, at.dy, at.angle) for plate, at in zip(self._sim._plates, loads)]
 
 
 class FileSnapshot(Snapshot):
@@ -150,17 +152,8 @@ class FileSnapshot(Snapshot):
     def _friction_factor(self) -> float:
         return self._result.friction_factor
 
-    def plate_lines(self) -> list[tuple[float, float, float, float]]:
-        lines = []
-        for values in self._result.scene["plates"]:
-            plate = Plate(**values)
-            if plate.knot_t is not None and plate.knot_x is not None and plate.knot_y is not None:
-                dx = float(np.interp(self.time, plate.knot_t, plate.knot_x))
-                dy = float(np.interp(self.time, plate.knot_t, plate.knot_y))
-            else:
-                dx, dy = plate.vx * self.time, plate.vy * self.time
-            lines.append((plate.x0 + dx, plate.y0 + dy, plate.x1 + dx, plate.y1 + dy))
-        return lines
+    def plate_lines(self) -> list[np.ndarray]:
+        return self._result._plate_lines(self._frame)
 
 
 class Result:
@@ -194,6 +187,10 @@ class Result:
         except KeyError as error:
             self._file.close()
             raise FileError(f"{self.path}: is no result file of granperi: {error.args[0]}") from None
+
+    @functools.cached_property
+    def _plates(self) -> list[Plate]:
+        return [Plate(**values) for values in self.scene["plates"]]
 
     def close(self) -> None:
         if self._file is not None:
@@ -240,8 +237,7 @@ class Result:
         return tuple(name for name in FIELD_NAMES if self.has(name))
 
     def _read(self, name: str, frame: int) -> np.ndarray:
-        if self._file is None:
-            raise StateError(f"{self.path} is closed: read within its with block, or open it anew")
+        self._open()
         if not self.has(name):
             raise ArgumentError(f"{self.path} has no field '{name}': it has {', '.join(self.fields)}; write it with "
                                 "output(fields=...) or gp_output.fields")
@@ -256,10 +252,20 @@ class Result:
         """The states at the frames. What differs from run to run, wall_seconds, is not in the file: NaN."""
         return History(self._state(frame) for frame in range(len(self)))
 
-    def _state(self, frame: int) -> State:
+    def _plate_lines(self, frame: int) -> list[np.ndarray]:
+        file = self._open()
+        if "walls" not in file:  # of 0.1: no more than the scene is known
+            return [plate.at(float(self.times[frame])) for plate in self._plates]
+        plate, points = file["walls/plate"][()], file[f"frames/{frame - frame % 256:06d}/{frame:06d}/walls"][:, :2]
+        return np.split(points, np.flatnonzero(np.diff(plate)) + 1)
+
+    def _open(self) -> "h5py.File":
         if self._file is None:
             raise StateError(f"{self.path} is closed: read within its with block, or open it anew")
-        values = self._file["observables/state/value"]
+        return self._file
+
+    def _state(self, frame: int) -> State:
+        values = self._open()["observables/state/value"]
         return _state_of(dict(zip((name.decode() for name in values.attrs["names"]), values[frame])))
 
     def __repr__(self) -> str:

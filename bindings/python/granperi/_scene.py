@@ -10,7 +10,9 @@ from typing import Any, Callable, Iterator
 
 from ._enums import field_names
 from ._errors import ArgumentError, ArgumentTypeError, Error, near_match, number
-from ._objects import Column, Config, Material, Plate
+from ._objects import Column, Config, Material
+from ._plate import Plate
+from ._profile import read_points
 from ._simulation import Simulation
 from ._state import History
 
@@ -57,6 +59,8 @@ _LISTS: dict[str, list[str]] = {
     "floor": [*_callable_keys(Plate.floor), "friction", "wall_mu", "fluidity"],
     "wall": [*_callable_keys(Plate.wall), "friction", "wall_mu", "fluidity"],
     "gate": [name for name in _callable_keys(Plate.gate) if name != "spacing"],
+    "wall_line": ["points", "file", "closed", "material",
+                  *[name for name in Plate.names() if name not in ("x0", "y0", "x1", "y1", "point_x", "point_y")]],
 }
 _RUN = [field.name for field in dataclasses.fields(Run)]
 _CONFIG = [name.rstrip("_") for name in Config.names()]
@@ -70,7 +74,7 @@ class Scene:
             sim.run(scene.run.end)
 
     A scene file (TOML) has the sections [config], [run], [[material]], [[column]], [[particles]], [[plate]], [[floor]],
-    [[wall]] and [[gate]].
+    [[wall]], [[gate]] and [[wall_line]], whose points may be in a file beside it.
     """
 
     def __init__(self, config: Config | None = None, run: Run | None = None, name: str = "scene"):
@@ -79,7 +83,8 @@ class Scene:
         self._config_line = ""
 
     def add(self, kind: str, **values: Any) -> None:
-        """Adds a table as in a scene file: "material", "column", "particles", "plate", "floor", "wall" or "gate"."""
+        """Adds a table as in a scene file: "material", "column", "particles", "plate", "floor", "wall", "gate" or
+        "wall_line"."""
         number_of_kind = 1 + sum(part.kind == kind for part in self._parts)
         self._add(_Part(kind, values, self.name, "", f"{kind} {number_of_kind}"), lambda key: "")
 
@@ -127,6 +132,8 @@ class Scene:
                 raise SceneError(f"{name}{lines.where(kind)}: expected [[{kind}]] with two brackets, as there may be "
                                  "several")
             for k, values in enumerate(several):
+                if kind == "wall_line" and isinstance(values.get("file"), str):
+                    values = {**values, "file": os.path.join(os.path.dirname(name), values["file"])}
                 part = _Part(kind, values, name, lines.where(kind, k), f"[[{kind}]] number {k + 1}")
                 scene._add(part, lambda key: lines.where(kind, k, key))
         # Columns and plates are numbered as they stand in the file, of whatever kind.
@@ -216,6 +223,16 @@ def _build_material(sim: Simulation, values: dict[str, Any], materials: dict[Any
         materials[name] = k
 
 
+def _wall_line(values: dict[str, Any]) -> Plate:
+    points, file, closed = (values.pop(name, None) for name in ("points", "file", "closed"))
+    if (points is None) == (file is None):
+        raise ArgumentError("expected either points = [[x, y], ...] or file = the name of a file of two columns, x and y"
+                            + ("" if file is None else ", not both"))
+    if closed is not None and not isinstance(closed, bool):
+        raise ArgumentTypeError(f"closed = {closed!r}: expected true or false")
+    return Plate.line(read_points(file) if points is None else points, bool(closed), **values)
+
+
 _builders: dict[str, Callable[[Simulation, dict[str, Any], dict[Any, int]], Any]] = {
     "material": _build_material,
     "column": lambda sim, values, materials: sim.add_column(**_with_material(values, materials)),
@@ -224,6 +241,7 @@ _builders: dict[str, Callable[[Simulation, dict[str, Any], dict[Any, int]], Any]
     "floor": lambda sim, values, materials: sim.add_plate(Plate.floor(**values)),
     "wall": lambda sim, values, materials: sim.add_plate(Plate.wall(**values)),
     "gate": lambda sim, values, materials: sim.add_plate(Plate.gate(**values, spacing=sim.config.spacing)),
+    "wall_line": lambda sim, values, materials: sim.add_plate(_wall_line(values)),
 }
 
 

@@ -14,8 +14,9 @@ from ._engine import Engine
 from ._enums import FIELD_MEANINGS, FIELD_NAMES, Field, field_names
 from ._errors import ArgumentError, ArgumentTypeError, StateError, check, doubles, number, path_bytes, pointer, whole
 from ._library import ffi, lib
-from ._objects import Column, Config, Material, Parameters, Plate
+from ._objects import Column, Config, Material, Parameters
 from ._output import Output
+from ._plate import Plate
 from ._progress import Progress
 from ._state import Clock, History, Load, PlanEntry, State
 from ._views import Particles, View
@@ -141,7 +142,7 @@ class Simulation:
         return self._add("column", Column, column, values, self._columns)
 
     def add_plate(self, plate: Plate | None = None, **values: Any) -> int:
-        """Adds a floor, wall, gate or lid; returns its number."""
+        """Adds a Plate, or one of these parameters: a floor, wall, gate, lid or line; returns its number."""
         return self._add("plate", Plate, plate, values, self._plates)
 
     def _add(self, name: str, kind: type[Parameters], given: Any, values: dict[str, Any], kept: list) -> int:
@@ -169,11 +170,19 @@ class Simulation:
 
     def set_plate_velocity(self, plate: int, vx: float, vy: float) -> None:
         """Drives a plate at this velocity [m/s] from now on, from where it is; possible at any time, also in a callback."""
-        plate, vx, vy = whole("plate", plate, 32), number("vx", vx), number("vy", vy)
-        with self._engine.locked("set_plate_velocity") as engine:
+        self._drive("set_plate_velocity", plate, vx, vy)
+
+    def set_plate_motion(self, plate: int, vx: float, vy: float, omega: float) -> None:
+        """The same for any rigid motion: the plate's pivot moves at vx, vy [m/s], and the plate turns about it at omega
+        [rad/s], counter-clockwise. A plate under a load does not turn: ArgumentError."""
+        self._drive("set_plate_motion", plate, vx, vy, omega)
+
+    def _drive(self, name: str, plate: int, *motion: float) -> None:
+        values = [number(of, value) for of, value in zip(("vx", "vy", "omega"), motion)]
+        with self._engine.locked(name) as engine:
             if engine.exports and not engine.running:
-                engine.before_change("set_plate_velocity")
-            check(lib.gp_set_plate_velocity(engine.sim, plate, vx, vy))
+                engine.before_change(name)
+            check(getattr(lib, "gp_" + name)(engine.sim, whole("plate", plate, 32), *values))
 
     def set_gravity(self, gx: float, gy: float) -> None:
         """Gravity [m/s2] from now on; possible at any time, also in a callback. Before the first step it replaces the
@@ -256,7 +265,8 @@ class Simulation:
         """Has callback(sim) called after every `every`-th step; None: no longer.
 
         A true return value stops the run. An exception stops the run and comes out of step() or run() as it was raised.
-        In the callback the simulation can be read, driven (set_plate_velocity, set_gravity) and written to its open output.
+        In the callback the simulation can be read, driven (set_plate_velocity, set_plate_motion, set_gravity) and written to
+        its open output.
         """
         every = whole("every", every)
         if callback is not None and not callable(callback):
@@ -369,7 +379,7 @@ class Simulation:
         return x
 
     def plate_load(self, plate: int) -> Load:
-        """The load of the material on a plate, and the plate's displacement."""
+        """The load of the material on a plate, and the plate's displacement and turn."""
         plate = whole("plate", plate, 32)
         with self._engine.locked("plate_load") as engine:
             return _state.read_load(engine.sim, plate)

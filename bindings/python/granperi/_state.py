@@ -114,8 +114,9 @@ def read_clock(sim) -> Clock:
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """Load on a plate over the last step: fx, fy [N/m], torque about its end 0 [N]; its displacement dx, dy [m] and the
-    impulse_x, impulse_y [N s/m] since the start."""
+    """Load on a plate over the last step: fx, fy [N/m], torque about its first point [N] and torque_pivot about its pivot [N],
+    counter-clockwise; since the start its displacement dx, dy [m] and angle [rad], and the integrals over time impulse_x,
+    impulse_y [N s/m] and impulse_torque [N s] (of torque_pivot)."""
 
     fx: float
     fy: float
@@ -124,6 +125,9 @@ class Load:
     dy: float
     impulse_x: float
     impulse_y: float
+    torque_pivot: float
+    angle: float
+    impulse_torque: float
 
 
 _LOAD_NAMES = tuple(field.name for field in dataclasses.fields(Load))

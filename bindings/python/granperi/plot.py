@@ -43,10 +43,14 @@ _STYLE = {"font.size": _SMALL, "axes.labelsize": _LARGE, "lines.linewidth": 2.0}
 
 
 def _bounds(shot: Snapshot) -> tuple[float, float, float, float]:
-    """x and y limits [m] that have all particles and, where they are near, the plates."""
+    """x and y limits [m] that have all particles, the plates where they are near, and all of a drum that holds particles."""
     x, y, margin = shot.x, shot.y, 2 * shot.spacing
     if not len(x):
         return -1.0, 1.0, 0.0, 1.0
+    for line in shot.plate_lines():
+        (left, bottom), (right, top) = line.min(axis=0), line.max(axis=0)
+        if np.array_equal(line[0], line[-1]) and left <= x.min() and x.max() <= right and bottom <= y.min() <= top:
+            x, y = np.append(x, [left, right]), np.append(y, [bottom, top])
     wide = 0.03 * (np.ptp(x) + np.ptp(y)) + margin
     return x.min() - wide, x.max() + wide, y.min() - margin, y.max() + wide
 
@@ -85,8 +89,8 @@ def _curve_axes(axes: Axes | None, x_label: str, y_label: str) -> Axes:
 
 
 def _plates(axes: Axes, shot: Snapshot) -> None:
-    for x0, y0, x1, y1 in shot.plate_lines():
-        axes.plot([x0, x1], [y0, y1], color="black", linewidth=2, zorder=3, solid_capstyle="butt", gid="plate")
+    for line in shot.plate_lines():
+        axes.plot(*line.T, color="black", linewidth=2, zorder=3, solid_capstyle="butt", gid="plate")
 
 
 def _surface_line(shot: Snapshot) -> tuple[np.ndarray, np.ndarray]:

@@ -13,13 +13,15 @@ def add_to_hash(value: int, values: np.ndarray) -> int:
     return value
 
 
-def hash_of(sim: granperi.Simulation, lid: int) -> int:
+def hash_of(sim: granperi.Simulation, lid: int, wheel: int) -> int:
     value = 14695981039346656037
     for name in ("x", "y", "vx", "vy", "pressure"):
         value = add_to_hash(value, sim.field(name))
-    load = sim.plate_load(lid)
-    of_lid = [load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y]
-    return add_to_hash(value, np.array(of_lid))
+    for plate in (lid, wheel):
+        load = sim.plate_load(plate)
+        value = add_to_hash(value, np.array([load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y,
+                                             load.torque_pivot, load.angle, load.impulse_torque]))
+    return value
 
 
 def main() -> None:
@@ -29,22 +31,26 @@ def main() -> None:
         k = np.arange(1, 7)
         sim.add_particles(np.full(6, 0.12), k * 0.004, vx=np.full(6, -0.5), vy=k * 0.0625)
 
-        sim.add_plate(x0=0.3, x1=0)
+        sim.add_plate(x0=0.3, x1=0, surface_velocity=0.25)
         sim.add_plate(y1=0.1, friction="free_slip")
         lid = sim.add_plate(x0=0, y0=0.066, x1=0.06, y1=0.066, friction="coulomb")
         sim.add_plate(x0=0.08, x1=0.08, y0=0.1, friction="free_slip", knot_t=[0, 0.005, 0.01, 0.015, 0.02],
-                      knot_x=[0] * 5, knot_y=[0, 0.001, 0.004, 0.009, 0.016])
+                      knot_x=[0] * 5, knot_y=[0, 0.001, 0.004, 0.009, 0.016], knot_angle=[0, 0, 0, 0.03125, 0.0625],
+                      pivot_x=0.08, pivot_y=0.1)
+        wheel = sim.add_plate(points=[[0.17, 0.03], [0.15, 0.05], [0.13, 0.03], [0.15, 0.01], [0.17, 0.03]], pivot_x=0.15,
+                              pivot_y=0.03)
 
-        # The lid sinks faster and faster: 4 m/s2. And the scene is tilted.
-        def drive(sim):
+        # The lid sinks faster and faster: 4 m/s2; the wheel turns faster and faster; and the scene is tilted.
+        def drive(sim: granperi.Simulation) -> None:
             sim.set_plate_velocity(lid, 0, -4 * sim.time)
+            sim.set_plate_motion(wheel, -0.25, 0, 512 * sim.time)
             sim.set_gravity(50 * sim.time, -9.5)
 
         sim.set_callback(drive, EVERY)
         for _ in range(3):
             sim.step(N_STEPS)
             state = sim.state
-            print(f"step {state.step} particles {state.n_particles} hash {hash_of(sim, lid):016x}")
+            print(f"step {state.step} particles {state.n_particles} hash {hash_of(sim, lid, wheel):016x}")
 
 
 if __name__ == "__main__":

@@ -112,7 +112,8 @@ def test_scene_texts(text):
     tried(lambda: granperi.Scene.parse(text))
 
 
-keys = st.sampled_from(["config", "run", "material", "column", "plate", "floor", "wall", "gate", "particles", "name", "x"])
+keys = st.sampled_from(["config", "run", "material", "column", "plate", "floor", "wall", "gate", "particles", "name", "x",
+                        "wall_line", "points", "file", "closed"])
 
 
 @given(kind=keys, values=st.dictionaries(keys | st.sampled_from(granperi.Plate.names()), array, max_size=3))

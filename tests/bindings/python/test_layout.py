@@ -6,7 +6,8 @@ import pytest
 from conftest import ROOT
 from granperi import _enums
 from granperi._library import ffi, lib
-from granperi._objects import Column, Config, Material, Plate
+from granperi._objects import Column, Config, Material
+from granperi._plate import Plate
 
 import granperi
 
@@ -45,7 +46,7 @@ def test_every_function_of_the_header_is_there():
 
 @pytest.mark.parametrize("kind", [Config, Material, Column, Plate])
 def test_keyword_objects_declare_every_field(kind):
-    of_struct = [name for name, _ in ffi.typeof(kind._struct).fields if name not in ("struct_size", kind._length)]
+    of_struct = [name for name, _ in ffi.typeof(kind._struct).fields if name not in ("struct_size", *kind._tables)]
     assert [name.rstrip("_") for name in kind.names()] == of_struct
     assert [name for name in kind.__annotations__ if not name.startswith("_")] == list(kind.names())
 

@@ -1,0 +1,177 @@
+"""Plate: floors, walls, gates, lines of any shape, and how they move."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ._enums import Fluidity, Wall
+from ._errors import ArgumentError, ArgumentTypeError, doubles, number
+from ._objects import Parameters, _signed
+
+
+@_signed
+class Plate(Parameters):
+    """A floor, wall, gate, lid, or a line of any shape: a rigid body whose surface the material touches.
+
+    Its line goes from (x0, y0) to (x1, y1) [m], or through point_x, point_y [m] (shape (n), x0 to y1 then 0), which
+    points (shape (n, 2)) sets at once; the material is on the right of that way. If the last point is the first, the line
+    is closed: clockwise it holds material (a drum), counter-clockwise it is an obstacle. floor, wall, gate and line make the
+    usual ones, turned the right way.
+
+    friction: "no_slip" (the default), "free_slip" or "coulomb" (then wall_mu >= 0). fluidity, of materials
+    with nonlocal_amplitude: "free" (the default), or "zero" if the plate holds the grains in front of it.
+
+    It is at rest, or moves at vx, vy [m/s] and turns at omega [rad/s, counter-clockwise] about pivot_x, pivot_y [m], which
+    moves along; or by the table knot_t [s], knot_x, knot_y [m], knot_angle [rad] (shape (n), displacements and turn since
+    the start; knot_angle, or knot_x and knot_y, may be left out), or as the host says (Simulation.set_plate_motion), or under
+    normal_pressure [Pa] with mass_per_length [kg/m2]. surface_velocity [m/s], along the line, is that of a belt: the
+    plate stays where it is. All of these are 0 or None as long as nothing is said; what the library refuses is an
+    ArgumentError that names the parameter, and the point.
+    """
+
+    _struct = "gp_plate"
+    _enums = {"friction": Wall, "fluidity": Fluidity}
+    _tables = {"n_knots": ("knot_t", "knot_x", "knot_y", "knot_angle"), "n_points": ("point_x", "point_y")}
+    _also = ("points",)
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    friction: Wall
+    wall_mu: float
+    vx: float
+    vy: float
+    knot_t: np.ndarray | None
+    knot_x: np.ndarray | None
+    knot_y: np.ndarray | None
+    normal_pressure: float
+    mass_per_length: float
+    point_x: np.ndarray | None
+    point_y: np.ndarray | None
+    pivot_x: float
+    pivot_y: float
+    omega: float
+    knot_angle: np.ndarray | None
+    surface_velocity: float
+    fluidity: Fluidity
+
+    def _set(self, name: str, value: Any) -> None:
+        if name == "points":
+            x, y = (None, None) if value is None else _columns("gp_plate.points", value)
+            super()._set("point_x", x)
+            super()._set("point_y", y)
+        else:
+            super()._set(name, value)
+
+    def _is_needed(self, name: str, given: dict[str, int]) -> bool:
+        if name == "knot_angle":
+            return False
+        return name not in ("knot_x", "knot_y") or "knot_angle" not in given or "knot_x" in given or "knot_y" in given
+
+    def _length_of(self, names: tuple[str, ...], lengths: dict[str, int]) -> int:
+        n = super()._length_of(names, lengths)
+        if n == 0 and "point_x" in names:  # 0 would stand for a plate without such a table
+            raise ArgumentError("gp_plate.point_x has no values: expected 2 or more points")
+        return n
+
+    @property
+    def points(self) -> np.ndarray:
+        """m, shape (n, 2): the line, also of a plate that has two ends only."""
+        if self.point_x is not None and self.point_y is not None:
+            return np.column_stack([self.point_x, self.point_y])
+        return np.array([[self.x0, self.y0], [self.x1, self.y1]])
+
+    @points.setter
+    def points(self, value: Any) -> None:
+        self._set("points", value)
+
+    def placed(self, dx: float, dy: float, angle: float = 0.0) -> np.ndarray:
+        """m, shape (n, 2): the line when the plate is displaced by dx, dy [m] and turned by angle [rad] about its pivot,
+        as Simulation.plate_load tells."""
+        pivot = np.array([self.pivot_x, self.pivot_y])
+        cosine, sine = math.cos(angle), math.sin(angle)
+        turned = (self.points - pivot) @ np.array([[cosine, sine], [-sine, cosine]]) + pivot if angle else self.points
+        return turned + np.array([dx, dy])
+
+    def at(self, time: float) -> np.ndarray:
+        """m, shape (n, 2): the line at this time [s], as far as the motion is prescribed."""
+        if self.knot_t is None:
+            return self.placed(self.vx * time, self.vy * time, self.omega * time)
+        return self.placed(*(0.0 if values is None else float(np.interp(time, self.knot_t, values))
+                             for values in (self.knot_x, self.knot_y, self.knot_angle)))
+
+    # ------------------------------------------------------------------------------------------- the usual ones
+
+    @classmethod
+    def floor(cls, x_left: float, x_right: float, y: float = 0.0, **more: Any) -> "Plate":
+        """A floor at the height y [m] from x_left to x_right [m], material above it."""
+        left, right = sorted((number("x_left", x_left), number("x_right", x_right)))
+        return cls(**{"x0": right, "y0": y, "x1": left, "y1": y, **more})
+
+    @classmethod
+    def wall(cls, x: float, y_bottom: float, y_top: float, material: str = "right", **more: Any) -> "Plate":
+        """An upright wall at x [m] with the material on its "left" or "right"."""
+        if not isinstance(material, str) or material not in ("left", "right"):
+            raise ArgumentTypeError(f"material = {material!r}: expected 'left' or 'right', the wetted side of the wall")
+        ends = sorted((number("y_bottom", y_bottom), number("y_top", y_top)), reverse=material == "left")
+        return cls(**{"x0": x, "y0": ends[0], "x1": x, "y1": ends[1], **more})
+
+    @classmethod
+    def gate(cls, x: float, height: float, lift_time: float, material: str = "right", spacing: float = 0.0025,
+             **more: Any) -> "Plate":
+        """A smooth upright gate on the floor y = 0 that is lifted with uniform acceleration.
+
+        It clears the height [m] of its column within lift_time [s], and goes on until it is six spacings [m] above it.
+        """
+        values = {"height": height, "lift_time": lift_time, "spacing": spacing}
+        height, lift_time, spacing = (number(name, value) for name, value in values.items())
+        for name, value in (("height", height), ("lift_time", lift_time), ("spacing", spacing)):
+            if not 0 < value < math.inf:
+                raise ArgumentError(f"{name} = {value:g}: expected a finite number > 0")
+        clear = height + 6 * spacing
+        part = np.arange(41) / 40
+        plate = cls.wall(x, 0.0, clear, material, **{"friction": "free_slip", **more})
+        return plate.replace(knot_t=part * (lift_time * math.sqrt(clear / height)), knot_x=0 * part,
+                             knot_y=part * part * clear)
+
+    @classmethod
+    def line(cls, points: Any, closed: bool = False, material: str = "right", **more: Any) -> "Plate":
+        """A line through points [m], shape (n, 2). closed: on to the first point again, if the last is not that already.
+
+        material: the side on which it is, "right" or "left" of the way (a profile of terrain from left to right has it on
+        the left), of a closed line "inside" or "outside". The plate's own way has it on its right, so it may be the other
+        one round: surface_velocity goes by the plate's.
+        """
+        x, y = _columns("points", points)
+        if closed and len(x) and (x[0] != x[-1] or y[0] != y[-1]):
+            x, y = np.append(x, x[0]), np.append(y, y[0])
+        if _turned_round(x, y, material):
+            x, y = x[::-1], y[::-1]
+        return cls(**{"point_x": x, "point_y": y, **more})
+
+
+def _turned_round(x: np.ndarray, y: np.ndarray, material: str) -> bool:
+    """Whether the material is on the left of the way through these points."""
+    if isinstance(material, str) and material in ("right", "left"):
+        return material == "left"
+    if not isinstance(material, str) or material not in ("inside", "outside"):
+        raise ArgumentTypeError(f"material = {material!r}: expected 'right' or 'left', the wetted side of the line, or "
+                                "'inside' or 'outside' of a closed one")
+    if not len(x) or x[0] != x[-1] or y[0] != y[-1]:
+        raise ArgumentError(f"material = {material!r}: expected 'right' or 'left', as the line is not closed")
+    x, y = x - x[0], y - y[0]  # a small line far from the origin keeps its digits
+    area = np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])  # twice; > 0: counter-clockwise, the inside is on the left
+    return bool(area > 0) == (material == "inside")
+
+
+def _columns(name: str, points: Any) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        array = np.asarray(points)
+    except ValueError:  # rows of different lengths
+        array = np.empty(0)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ArgumentTypeError(f"{name}: expected numbers of the shape (n, 2), one x and one y per point, got "
+                                + (f"the shape {array.shape}" if array.size else f"{points!r:.80}"))
+    return doubles(f"{name}[:, 0]", array[:, 0]), doubles(f"{name}[:, 1]", array[:, 1])
