@@ -43,8 +43,8 @@ GP_INLINE Lanes shrink_by_fluidity(const Particles &p, const MaterialLanes &mate
     const Lanes under_pressure =
         Fluidity::after(material.map, trial, borne, dt, inertia + places.load(p.fluid_pace.data()),
                         inertia * places.load(p.fluidity.data()) + places.load(p.fluid_pull.data()));
-    fluidity =
-        material.is_fluid * choose(pressure > 0.0, under_pressure, Fluidity::without_pressure(material.map, rate));
+    fluidity = where(material.is_fluid > 0.0,
+                     choose(pressure > 0.0, under_pressure, Fluidity::without_pressure(material.map, rate)));
     return where(pressure > 0.0, one / (one + material.map.shear_modulus * dt / borne * fluidity));
 }
 

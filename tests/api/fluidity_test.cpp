@@ -174,6 +174,23 @@ TEST(Fluidity, IsOfTheMaterialsThatHaveAnAmplitude) {
     EXPECT_GT(apart, 1e-3 * spacing);
 }
 
+// Without friction, and so without a stress to flow at: grains in flight beside those of another material.
+TEST(Fluidity, OfAMaterialWithoutFrictionIsZero) {
+    Sim sim;
+    gp_material smooth = make_material();
+    smooth.mu_s = smooth.mu_2 = 0;
+    gp_column grain = make_column(2, 2, 0, 20 * spacing);
+    grain.material = sim.add(smooth);
+    sim.add(grain);
+    gp_column column = make_column(8, 6);
+    column.material = sim.add(make_fluid());
+    sim.add(column);
+    sim.add(make_floor());
+    ASSERT_EQ(gp_step(sim, 20), GP_OK) << gp_last_error();
+    for (const double value : of_column(sim, 0, GP_FIELD_FLUIDITY))
+        EXPECT_EQ(value, 0);
+}
+
 // A material that no column is of changes nothing.
 TEST(Fluidity, DoesNotExistWhereNoParticleHasIt) {
     std::vector<uint64_t> bits[2];

@@ -332,7 +332,9 @@ std::string description(uint64_t seed, const Drawn &s) {
          << s.config.bulk_viscosity << ", period " << s.config.periodic_x_max - s.config.periodic_x_min << ", channel "
          << s.config.channel_width << ", jitter " << s.config.jitter;
     for (const gp_material &m : s.materials)
-        text << "; material of " << m.grain_density * m.volume_fraction << " kg/m3";
+        text << "; material of " << m.grain_density * m.volume_fraction << " kg/m3, d " << m.grain_diameter << ", mu "
+             << m.mu_s << " to " << m.mu_2 << ", I0 " << m.i0 << ", amplitude " << m.nonlocal_amplitude << ", t0 "
+             << m.fluidity_time;
     for (const gp_column &c : s.columns)
         text << "; column (" << c.x_min / s.config.spacing << ", " << c.y_min / s.config.spacing << ") "
              << c.width / s.config.spacing << " x " << c.height / s.config.spacing << " dl, material " << c.material
