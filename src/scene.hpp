@@ -105,7 +105,12 @@ struct MaterialConstants {
     double bulk_modulus; // rho0 c0^2, Pa
     ReturnMap map;
     Regularized law;
-    double cooperativity2, fluidity_time; // m2, (A d)^2; s, t0: of the granular fluidity
+};
+
+// Of the granular fluidity. Apart from the others: loops that have nothing to do with it do not step over it.
+struct FluidityConstants {
+    double cooperativity2; // m2, (A d)^2; 0: the local law
+    double time;           // s, t0
 };
 
 // Sound speed over the largest flow speed, so that the density varies by about 1 % ([1], section 2.2).
@@ -162,6 +167,7 @@ struct Constants {
     double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     double elastic_penalty;        // the same inside the yield surface, over that
     bool fluid;                    // a material in use has a fluidity
+    std::vector<FluidityConstants> fluidities; // of the materials
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
 

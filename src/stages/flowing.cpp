@@ -23,18 +23,26 @@ double weight_of_flow(const World &world, int64_t i, double stress) {
     return std::sqrt(rate / (rate + half_rate * world.constants.sound_speed / world.constants.spacing));
 }
 
-} // namespace
-
-void flowing(World &world) {
+template <bool Fluid> void find_flowing(World &world) {
     Particles &p = world.particles;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const double stress = equivalent_stress({p.sxx[i], p.sxy[i]});
-            const MaterialConstants &m = world.material_of(i);
-            p.flowing[i] = m.cooperativity2 > 0 ? weight_of_flow(world, i, stress)
-                                                : (m.map.at_yield(stress, p.pressure[i]) ? 1.0 : 0.0);
+            if (Fluid && world.is_fluid(i))
+                p.flowing[i] = weight_of_flow(world, i, stress);
+            else
+                p.flowing[i] = world.map_of(i).at_yield(stress, p.pressure[i]) ? 1.0 : 0.0;
         }
     });
+}
+
+} // namespace
+
+void flowing(World &world) {
+    if (world.constants.fluid)
+        find_flowing<true>(world);
+    else
+        find_flowing<false>(world);
 }
 
 } // namespace gp::stages

@@ -57,7 +57,7 @@ void fluidity(World &world) {
                 const double distance = facet.segment.distance(walls.nearest_image(facet.segment, at));
                 pace += pace_of_ghosts(walls, contact, at, distance > 0 ? distance : 0.0, inverse_radius);
             }
-            const double factor = share * world.material_of(i).cooperativity2, pull = p.fluid_pull[i];
+            const double factor = share * world.fluidity_of(i).cooperativity2, pull = p.fluid_pull[i];
             p.fluid_pull[i] = factor * (pull > 0 ? pull : 0.0); // a difference of sums
             p.fluid_pace[i] = factor * (pace > 0 ? pace : 0.0);
         }

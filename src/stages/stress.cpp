@@ -16,7 +16,7 @@ struct MaterialLanes {
     ReturnMapOf<Lanes> map;
     Lanes density, fluidity_time, is_fluid; // is_fluid: 1 or 0
 
-    GP_INLINE void set(const Constants &c, const int32_t *column, const LanePlaces &places) {
+    template <bool Fluid> GP_INLINE void set(const Constants &c, const int32_t *column, const LanePlaces &places) {
         for (int l = 0; l < lane_count; ++l) {
             const MaterialConstants &m = c.materials[c.body_material[column[places.at[l]]]];
             map.mu_s[l] = m.map.mu_s;
@@ -24,8 +24,11 @@ struct MaterialLanes {
             map.rate_factor[l] = m.map.rate_factor;
             map.shear_modulus[l] = m.map.shear_modulus;
             density[l] = m.density;
-            fluidity_time[l] = m.fluidity_time;
-            is_fluid[l] = m.cooperativity2 > 0 ? 1.0 : 0.0;
+            if (Fluid) {
+                const FluidityConstants &f = c.fluidities[c.body_material[column[places.at[l]]]];
+                fluidity_time[l] = f.time;
+                is_fluid[l] = f.cooperativity2 > 0 ? 1.0 : 0.0;
+            }
         }
     }
 };
@@ -73,11 +76,11 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
     Lanes plastic{}, internal{}, damped{};
     MaterialLanes material{};
     if (one_material)
-        material.set(world.constants, p.column.data(), LanePlaces(begin, end));
+        material.set<Fluid>(world.constants, p.column.data(), LanePlaces(begin, end));
     for (int64_t first = begin; first < end; first += lane_count) {
         const LanePlaces places(first, end);
         if (!one_material)
-            material.set(world.constants, p.column.data(), places);
+            material.set<Fluid>(world.constants, p.column.data(), places);
         const ReturnMapOf<Lanes> &map = material.map;
         const Lanes lxx = places.load(p.lxx.data()), lxy = places.load(p.lxy.data());
         const Lanes lyx = places.load(p.lyx.data()), lyy = places.load(p.lyy.data());

@@ -14,7 +14,7 @@ namespace gp::stages {
 namespace {
 
 // Where the particle was when the step began.
-Vector place_before(const World &world, const Contact &contact) {
+GP_INLINE Vector place_before(const World &world, const Contact &contact) {
     const Particles &p = world.particles;
     const int64_t i = contact.particle;
     const double dt = world.clock.dt;
@@ -31,7 +31,7 @@ double rate_per_slip_of(const World &world, const Contact &contact) {
 // that the particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and
 // the rate at the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. direction: 1 or -1, of the slip along the
 // tangent.
-SurfaceRate surface_rate(const World &world, const Contact &contact, double direction) {
+GP_INLINE SurfaceRate surface_rate(const World &world, const Contact &contact, double direction) {
     const Constants &c = world.constants;
     const int64_t i = contact.particle;
     const Segment &s = world.walls.facets[contact.facet].segment;
@@ -72,9 +72,7 @@ double rough_ratio(const World &world, const Contact &contact, double mu) {
     return shear2 > 0 ? mu * std::sqrt(shear2) / normal : 0.0;
 }
 
-} // namespace
-
-void wall_friction(World &world) {
+template <bool Fluid> void brake_contacts(World &world) {
     const Particles &p = world.particles;
     const bool sticks =
         world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
@@ -99,7 +97,7 @@ void wall_friction(World &world) {
         const auto ratio_of = [&](double mu) {
             return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(*facet.spec, mu);
         };
-        const bool fluid = world.material_of(i).cooperativity2 > 0 && p.pressure[i] > 0;
+        const bool fluid = Fluid && world.is_fluid(i) && p.pressure[i] > 0;
         // Between plate and particle: of the fluidity, and of the plastic rate.
         const double between = fluid ? (facet.spec->fluidity == GP_FLUIDITY_ZERO ? 0.5 : 1.0) * p.fluidity[i] : 0.0;
         const SurfaceRate mean_rate{fluid ? rate_per_slip_of(world, contact) : 0.0,
@@ -120,6 +118,15 @@ void wall_friction(World &world) {
         if (rough)
             world.ledger.walls += world.ledger.dissipated - before;
     }
+}
+
+} // namespace
+
+void wall_friction(World &world) {
+    if (world.constants.fluid)
+        brake_contacts<true>(world);
+    else
+        brake_contacts<false>(world);
 }
 
 } // namespace gp::stages
