@@ -79,7 +79,7 @@ int main(int argc, char **argv) {
     };
     const int n = (int)(sizeof cases / sizeof cases[0]);
     choices c = {.rows = NAN, .angle = NAN, .end = NAN, .filling = 5};
-    double coulomb = 0;
+    double coulomb = 0, beads = 0;
     const bench_option options[] = {
         {"--rows",
          "spacings in the layer, the height of the column, the width of the silo, the outlet of a hopper [10, 20, 28, "
@@ -89,6 +89,7 @@ int main(int argc, char **argv) {
         {"--jitter", "spacings [0]", BENCH_NUMBER, &c.jitter, 0, 0.3},
         {"--end", "s, end of the run [depends on the case]", BENCH_NUMBER, &c.end, 1e-3, 1e4},
         {"--filling", "outlets, of a hopper [5]", BENCH_NUMBER, &c.filling, 2, 100},
+        {"--beads", "1: glass beads in the hopper, not the published friction [0]", BENCH_WHOLE, &beads, 0, 1},
         {"--coulomb", "1: a floor with the Coulomb friction of the material, of layers that slide [0]", BENCH_WHOLE,
          &coulomb, 0, 1},
         {"--bed", "m, thickness of the layer under the column [0]", BENCH_NUMBER, &c.bed, 0, 1},
@@ -104,6 +105,7 @@ int main(int argc, char **argv) {
     c.angle = isnan(c.angle) ? cases[k].angle : c.angle;
     c.end = isnan(c.end) ? cases[k].end : c.end;
     c.coulomb = coulomb != 0;
+    c.beads = beads != 0;
     cases[k].run(&c);
     return 0;
 }

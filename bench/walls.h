@@ -16,6 +16,7 @@ typedef struct choices {
     double jitter;   /* spacings */
     double end;      /* s */
     double filling;  /* of a hopper, outlets high */
+    int32_t beads;   /* 1: a hopper has glass beads of 21 and 32 degrees in place of the published friction */
     int32_t coulomb; /* 1: the floor has the Coulomb friction of the material in place of a rough surface */
     double bed;      /* m, thickness of a layer of the same grains under the column, that can be eroded */
 } choices;

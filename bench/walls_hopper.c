@@ -67,7 +67,10 @@ void hopper(const choices *c) {
     int k;
     config.sound_speed = 40; /* m/s: what has left falls on and reaches 7 m/s by itself, which needs no more */
     CHECK(gp_create(&config, &sim));
-    add_material(sim);
+    if (c->beads)
+        walls_add_beads(sim, diameter, 0);
+    else
+        add_material(sim);
     add_line(sim, left_x, left_y);
     add_line(sim, right_x, right_y);
     CHECK(gp_column_init(&column, sizeof column));

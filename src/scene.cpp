@@ -18,6 +18,9 @@ void check_config(const gp_config &c) {
     require_finite("gp_config.gravity_x", c.gravity_x);
     require_finite("gp_config.gravity_y", c.gravity_y);
     require_not_negative("gp_config.sound_speed", c.sound_speed);
+    // Its square, over which densities are, is a number.
+    require(c.sound_speed == 0 || c.sound_speed >= 1e-9, "gp_config.sound_speed", c.sound_speed,
+            "0 or a number of at least 1e-9 m/s");
     if (c.cfl != 0)
         require_between("gp_config.cfl", c.cfl, 1e-6, 2);
     require_not_negative("gp_config.time_step", c.time_step);

@@ -247,7 +247,8 @@ Constants Scene::constants() const {
     const Range densities = densities_in_use(*this);
     const double lightest = densities.low, heaviest = std::max(densities.high, 0.0);
     set_fall(c, {config_.gravity_x, config_.gravity_y}, x.data(), y.data(), particle_count());
-    if (!by_number_density(c.scheme))
+    // With a step of the host's own it stays as it was: the step may be too long for a stiffer material.
+    if (!by_number_density(c.scheme) && config_.time_step == 0)
         c.impact = hardest_impact(*this);
     const double of_flow = sound_to_flow_speed * c.flow_speed, of_impact = c.impact.speed / most_blow;
     c.sound_speed_is_arbitrary = config_.sound_speed == 0 && c.flow_speed == 0;

@@ -35,6 +35,7 @@ struct Contact {
     // 1/s: the velocity gradient that the particle's neighbours make without ghosts; kept by its first contact.
     double inner_xx = 0, inner_xy = 0, inner_yx = 0, inner_yy = 0;
     double held_normal = 0, held_tangential = 0; // m/s: by wall_support and wall_hold in this step
+    double couple = 0;                           // N/m2, a density as the force: on the particle beside it
 };
 
 struct Walls {

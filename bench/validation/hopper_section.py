@@ -12,7 +12,7 @@ from plotting import finish
 from results import Collection
 
 MARKERS = {5: "o", 10: "s"}
-COLORS = {10: "#0072B2", 20: "#D55E00"}
+COLORS = {(10, False): "#0072B2", (20, False): "#D55E00", (10, True): "#009E73", (20, True): "#CC79A7"}
 
 
 def _value(results: Collection, run: runs.Run, name: str) -> float | None:
@@ -29,12 +29,16 @@ def _parts(results: Collection, run: runs.Run) -> list[tuple[float, float]]:
     return [(filling * result.summary[f"left_{k}"], result.summary[f"rate_{k}"]) for k in range(runs.HOPPER_PARTS)]
 
 
+def _name(rows: int, beads: bool, filling: int) -> str:
+    return f"{'glass beads, ' if beads else ''}D/dl = {rows}, filled to {filling} D"
+
+
 def figure(path: Path, results: Collection) -> bool:
     drawn = False
     fig, axes = plt.subplots(figsize=(9, 4.8), layout="constrained")
-    for run in runs.hoppers():
-        rows, filling = int(run.arguments[2]), int(run.arguments[-1])
-        parts = _parts(results, run)
+    cases = [(rows, beads, filling) for rows, beads in runs.HOPPERS for filling in runs.HOPPER_FILLINGS]
+    for rows, beads, filling in cases:
+        parts = _parts(results, runs.hopper(rows, filling, beads))
         if not parts:
             continue
         drawn = True
@@ -43,9 +47,9 @@ def figure(path: Path, results: Collection) -> bool:
             [rate for _, rate in parts],
             linestyle="none",
             marker=MARKERS[filling],
-            color=COLORS[rows],
+            color=COLORS[rows, beads],
             ms=9,
-            label=f"D/dl = {rows}, filled to {filling} D",
+            label=_name(rows, beads, filling),
         )
     axes.axhline(ref.BASILISK_SILO_RATE, color="0.35", linestyle="--", lw=1.7, label="Basilisk, for D = 0.31 to 1.1")
     axes.set_xlabel("filling left, H/D")
@@ -57,20 +61,20 @@ def figure(path: Path, results: Collection) -> bool:
 
 def _table(results: Collection) -> str:
     rows = []
-    for spacings in runs.HOPPER_ROWS:
-        low = _value(results, runs.hopper(spacings, runs.HOPPER_FILLINGS[0]), "rate")
+    for spacings, beads in runs.HOPPERS:
+        low = _value(results, runs.hopper(spacings, runs.HOPPER_FILLINGS[0], beads), "rate")
         for filling in runs.HOPPER_FILLINGS:
-            run = runs.hopper(spacings, filling)
+            run = runs.hopper(spacings, filling, beads)
             rate = _value(results, run, "rate")
             of_parts = [value for _, value in _parts(results, run)]
             spread = f"{min(of_parts):.3f} … {max(of_parts):.3f}" if of_parts else NONE
             rows.append(
                 [
-                    f"D/dl = {spacings}, filled to {filling} D",
+                    _name(spacings, beads, filling),
                     fixed(rate),
                     spread,
                     NONE if filling == runs.HOPPER_FILLINGS[0] else percent(rate, low, 1),
-                    percent(rate, ref.BASILISK_SILO_RATE, 0),
+                    NONE if beads else percent(rate, ref.BASILISK_SILO_RATE, 0),
                     cpu(results(run).cpu) if results(run) else NONE,
                 ]
             )
@@ -80,8 +84,8 @@ def _table(results: Collection) -> str:
 
 def _result(results: Collection) -> str:
     pairs = [
-        [_value(results, runs.hopper(rows, filling), "rate") for filling in runs.HOPPER_FILLINGS]
-        for rows in runs.HOPPER_ROWS
+        [_value(results, runs.hopper(rows, filling, beads), "rate") for filling in runs.HOPPER_FILLINGS]
+        for rows, beads in runs.HOPPERS
     ]
     known = [(low, high) for low, high in pairs if low is not None and high is not None]
     if not known:
@@ -98,8 +102,8 @@ def section(results: Collection, drawn_figure: str) -> str:
     return f"""{_result(results)}
 
 A silo 5 D wide with a flat floor and rough walls, an outlet of D = 0.05 m in its middle, open from the start; means from
-0.2 to 0.8 s. μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}, d = D/20. A fluid's rate would go by the square root of the
-filling: {100 * (2**0.5 - 1):.0f} % more at twice as much.
+0.2 to 0.8 s. μ_s = {ref.SILO_MU_S:g}, μ_2 = {ref.SILO_MU_2:g}, I0 = {ref.SILO_I0:g}; glass beads have 21°, 32° and 0.3; d = D/20. A
+fluid's rate would go by the square root of the filling: {100 * (2**0.5 - 1):.0f} % more at twice as much.
 
 Beside it: {ref.BASILISK_SILO_SOURCE}.
 {ref.STARON_SILO} report by the same law that the rate

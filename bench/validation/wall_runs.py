@@ -17,7 +17,7 @@ COLUMN_ROWS = (28, 56)  # spacings in the height
 COLUMN_HEIGHT = 0.14  # m
 BED_ANGLE, BED = 10, 0.01  # degrees, m: the column on a layer of its grains
 SILO_ROWS = (12, 24)  # spacings in the width
-HOPPER_ROWS = (10, 20)  # spacings in the outlet
+HOPPERS = ((10, False), (20, False), (10, True), (20, True))  # spacings in the outlet; glass beads, or the published friction
 HOPPER_FILLINGS = (5, 10)  # outlets, height of the filling
 HOPPER_PARTS = 4  # of the time, as the program has them
 
@@ -53,17 +53,17 @@ def silo(rows: int) -> Run:
     return Run(f"silo_{rows}", "walls", ("silo", "--rows", str(rows)), 4.0 * (rows / 12) ** 3)
 
 
-def hopper(rows: int, filling: float) -> Run:
+def hopper(rows: int, filling: float, beads: bool = False) -> Run:
     return Run(
-        f"hopper_{rows}_{filling:g}",
+        f"hopper_{'beads_' if beads else ''}{rows}_{filling:g}",
         "walls",
-        ("hopper", "--rows", str(rows), "--filling", f"{filling:g}"),
+        ("hopper", *(("--beads", "1") if beads else ()), "--rows", str(rows), "--filling", f"{filling:g}"),
         1.7 * filling * (rows / 10) ** 3,
     )
 
 
 def hoppers() -> list[Run]:
-    return [hopper(rows, filling) for rows in HOPPER_ROWS for filling in HOPPER_FILLINGS]
+    return [hopper(rows, filling, beads) for rows, beads in HOPPERS for filling in HOPPER_FILLINGS]
 
 
 def walls() -> list[Run]:

@@ -129,7 +129,8 @@ typedef struct gp_config {
                                     from its highest to its lowest point, by its initial and plate velocities; or, if
                                     that is more, 60 x the speed of the hardest blow that it begins with: of a column
                                     that falls freely, through an opening too, or is thrown, against a plate or another
-                                    column (not with GP_DENSITY_NUMBER). The log says so and what it costs [0] */
+                                    column (not with GP_DENSITY_NUMBER, nor with a time_step). The log says so and what it
+                                    costs. Else at least 1e-9 [0] */
     double cfl;                  /* time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0;
                                     0: the scheme's own, 0.8 or of the schemes of [1] 0.2; else 1e-6 .. 2 [0] */
     double time_step;            /* s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY.

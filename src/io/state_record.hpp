@@ -49,7 +49,6 @@ template <class Visit> void for_each_observable(const gp_state &s, const Visit &
     visit("retries", "", static_cast<double>(s.retries));
     visit("dt_limit", "s", s.dt_limit);
     visit("max_compression", "", s.max_compression);
-    visit("spacing_dissipated", "J m-1", s.spacing_dissipated);
     visit("x_q01", "m", s.x_q01);
     visit("x_q05", "m", s.x_q05);
     visit("x_q25", "m", s.x_q25);

@@ -108,14 +108,20 @@ template <bool Adjoint> void close_books(World &world) {
     const double dt = world.clock.dt;
     // Power balance of the force stage, exact by the adjoint operators: with the ghosts' share G of sigma : L,
     //   total = -internal + sum (G + f . u) over contacts - penalty,
-    // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface.
+    // and of a contact's part f . u_plate is work of the plate, the rest is lost between the ghosts and the surface. To a plate
+    // that turns the couple is work too: then what turns with it loses nothing, and its torque is that which changes the
+    // material's angular momentum. Without the couple a layer at rest on an incline had a torque off by .4 dl times its shear
+    // force, and an inner wall of 16 dl radius turned with 4 % more than the material bears.
     double contact_power = 0, plate_power = 0;
     for (const Contact &contact : world.walls.contacts) {
         const int64_t i = contact.particle;
         const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
         world.walls.add_load(contact.facet, {p.x[i], p.y[i]}, reaction);
+        Plate &plate = world.walls.plates[world.walls.facets[contact.facet].plate];
+        plate.torque_pivot -= p.volume * contact.couple;
         contact_power += p.volume * (contact.ghost_power + contact.power);
-        plate_power -= reaction.dot(world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]}));
+        plate_power -= reaction.dot(world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]})) -
+                       p.volume * contact.couple * plate.motion().omega;
     }
     for (Plate &plate : world.walls.plates) {
         plate.impulse += dt * plate.force;

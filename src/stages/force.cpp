@@ -97,12 +97,14 @@ struct WallView {
 
 // Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and
 // the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
-GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &seen, Contact &contact) {
+// Returns sum w r (x) r.
+GP_INLINE SymmetricTensor contact_force(const WallView &v, const Tensor &a, const Tensor &seen, Contact &contact) {
     const int64_t i = contact.particle;
     const double xi = v.x[i], yi = v.y[i];
     double wx = 0, wy = 0, tx = 0, ty = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
+    double sxx = 0, sxy = 0, syy = 0;
     const double ui = v.vx[i], vi = v.vy[i];
-#pragma omp simd reduction(+ : wx, wy, tx, ty, gxx, gxy, gyx, gyy)
+#pragma omp simd reduction(+ : wx, wy, tx, ty, gxx, gxy, gyx, gyy, sxx, sxy, syy)
     for (int64_t k = contact.begin; k < contact.end; ++k) {
         const int32_t g = v.index[k];
         const double dx = v.gx[g] - xi, dy = v.gy[g] - yi;
@@ -117,10 +119,14 @@ GP_INLINE void contact_force(const WallView &v, const Tensor &a, const Tensor &s
         gxy += du * wdy;
         gyx += dv * wdx;
         gyy += dv * wdy;
+        sxx += dx * wdx;
+        sxy += dx * wdy;
+        syy += dy * wdy;
     }
     contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx;
     contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty;
     contact.ghost_power = seen(0, 0) * gxx + seen(0, 1) * gxy + seen(1, 0) * gyx + seen(1, 1) * gyy;
+    return {sxx, sxy, syy};
 }
 
 GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
@@ -140,7 +146,14 @@ GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin
         const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
         const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
         const bool sticks = rough && by_number_density(world.constants.scheme);
-        contact_force(v, sticks ? a : through, rough ? a : through, contact);
+        const SymmetricTensor ways = contact_force(v, sticks ? a : through, rough ? a : through, contact);
+        // Their couple, which a turn works against: a particle's bonds bear none together, so those to particles leave the
+        // opposite one in the material.
+        contact.couple = a(1, 0) * ways.xx + (a(1, 1) - a(0, 0)) * ways.xy - a(0, 1) * ways.yy;
+        if (!rough) {
+            const double omega = world.walls.plates[facet.plate].motion().omega;
+            contact.ghost_power += s.tangent.dot(a * s.normal) * shear_of_turn(facet, omega, ways.xx, ways.xy, ways.yy);
+        }
         // A wall only pushes.
         const Vector &n = s.normal;
         const double pull = contact.force_x * n.x() + contact.force_y * n.y();

@@ -16,6 +16,7 @@ struct View {
     Clusters clusters;
     const double *x, *y, *vx, *vy;
     const Facet *facets;
+    const Plate *plates;
     Contact *contacts;
     const double *gx, *gy, *gvx, *gvy;
     double inverse_radius, lattice_moment;
@@ -90,7 +91,8 @@ GP_INLINE void finish(const View &v, int64_t i, Moments m) {
         Moments own;
         add_moments(own, v.rows.ghosts(*contact), Rows::ghost_count(*contact), v.x[i], v.y[i], v.vx[i], v.vy[i], v.gx,
                     v.gy, v.gvx, v.gvy, v.inverse_radius);
-        drop_wall_shear(v.facets[contact->facet], own.mxx, own.mxy, own.myx, own.myy);
+        const Facet &facet = v.facets[contact->facet];
+        drop_wall_shear(facet, v.plates[facet.plate].motion().omega, own);
         m += own;
     }
     SymmetricTensor g = inverse_shape(m, v.lattice_moment);
@@ -177,6 +179,7 @@ View view_of(World &world, const ExchangeView &exchange) {
             p.vx.data(),
             p.vy.data(),
             w.facets.data(),
+            w.plates.data(),
             w.contacts.data(),
             w.ghost_x.data(),
             w.ghost_y.data(),

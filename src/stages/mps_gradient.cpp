@@ -23,7 +23,8 @@ GP_MULTIVERSION void mps_gradient_rows(const View &v, int64_t begin, int64_t end
         for (const Contact &contact : v.rows.contacts_of(i)) {
             MpsGradient own = mps_gradient_sum(v.rows.ghosts(contact), Rows::ghost_count(contact), v.x[i], v.y[i],
                                                v.vx[i], v.vy[i], v.gx, v.gy, v.gvx, v.gvy, v.inverse_radius, v.floor);
-            drop_wall_shear(v.facets[contact.facet], own.xx, own.xy, own.yx, own.yy);
+            if (!passes_shear(v.facets[contact.facet]))
+                drop_shear(v.facets[contact.facet], own.xx, own.xy, own.yx, own.yy);
             m += own;
         }
         v.lxx[i] = v.scale * m.xx;

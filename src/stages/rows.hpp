@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lanes.hpp"
+#include "operators.hpp"
 #include "world.hpp"
 
 namespace gp::stages {
@@ -69,17 +70,34 @@ template <class Body> void for_each_cluster_block(const World &world, const Body
 
 // A plate with its own idea of friction passes no shear: of a sum of velocity differences (x) ways to its ghosts, the
 // change along the normal of the velocity along the plate, t.M.n, is left out.
-GP_INLINE void drop_shear(const Facet &facet, double &xx, double &xy, double &yx, double &yy) {
+GP_INLINE double shear_of(const Facet &facet, double xx, double xy, double yx, double yy) {
     const Vector &t = facet.segment.tangent, &n = facet.segment.normal;
-    const double shear = t.x() * (xx * n.x() + xy * n.y()) + t.y() * (yx * n.x() + yy * n.y());
-    xx -= shear * t.x() * n.x();
-    xy -= shear * t.x() * n.y();
-    yx -= shear * t.y() * n.x();
-    yy -= shear * t.y() * n.y();
+    return t.x() * (xx * n.x() + xy * n.y()) + t.y() * (yx * n.x() + yy * n.y());
 }
-GP_INLINE void drop_wall_shear(const Facet &facet, double &xx, double &xy, double &yx, double &yy) {
-    if (facet.spec->friction != GP_WALL_NO_SLIP)
-        drop_shear(facet, xx, xy, yx, yy);
+GP_INLINE void add_shear(const Facet &facet, double shear, double &xx, double &xy, double &yx, double &yy) {
+    const Vector &t = facet.segment.tangent, &n = facet.segment.normal;
+    xx += shear * t.x() * n.x();
+    xy += shear * t.x() * n.y();
+    yx += shear * t.y() * n.x();
+    yy += shear * t.y() * n.y();
+}
+GP_INLINE void drop_shear(const Facet &facet, double &xx, double &xy, double &yx, double &yy) {
+    add_shear(facet, -shear_of(facet, xx, xy, yx, yy), xx, xy, yx, yy);
+}
+// But not what has no shear in the plate's own frame: that of a turn with it, given sum w (way (x) way). Without this, material
+// at rest in a smooth box that turns with it sheared by .11 of its rate.
+GP_INLINE double shear_of_turn(const Facet &facet, double omega, double sxx, double sxy, double syy) {
+    return omega == 0 ? 0.0 : shear_of(facet, -omega * sxy, -omega * syy, omega * sxx, omega * sxy);
+}
+GP_INLINE bool passes_shear(const Facet &facet) {
+    return facet.spec->friction == GP_WALL_NO_SLIP;
+}
+GP_INLINE void drop_wall_shear(const Facet &facet, double omega, Moments &m) {
+    if (passes_shear(facet))
+        return;
+    drop_shear(facet, m.mxx, m.mxy, m.myx, m.myy);
+    if (omega != 0)
+        add_shear(facet, shear_of_turn(facet, omega, m.kxx, m.kxy, m.kyy), m.mxx, m.mxy, m.myx, m.myy);
 }
 
 // The gradient that a particle's neighbours make without the ghosts of plates: what the zero-energy penalty, which acts

@@ -156,6 +156,8 @@ inline uint64_t bits_of(double value) {
     return bits;
 }
 
+constexpr int numbers_of_load = 10;
+
 // All that the simulation shows, as bits: every field in the order of id, the state but for the wall-clock time, loads.
 inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
     std::vector<uint64_t> bits;
@@ -206,7 +208,8 @@ inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
         add(value);
     for (int32_t k = 0; k < plates; ++k) {
         const auto load = sim.load(k);
-        for (const double value : {load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y})
+        for (const double value : {load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y,
+                                   load.torque_pivot, load.angle, load.impulse_torque})
             add(value);
     }
     return bits;

@@ -74,7 +74,7 @@ std::vector<uint64_t> scalars(const Sim &sim, int32_t plates) {
     std::vector<uint64_t> bits = snapshot(sim, plates);
     bits.erase(bits.begin(), bits.begin() + 16 * sim.count());
     // The last of the state is volume_drift, which counts ghosts that the lists see: those of a step undone are new ones.
-    bits.erase(bits.end() - 7 * plates - 1);
+    bits.erase(bits.end() - numbers_of_load * plates - 1);
     const gp_state s = sim.state();
     for (const double value : {s.diffusion_dissipated, s.spacing_dissipated, s.channel_dissipated, s.max_compression,
                                s.dt_limit, static_cast<double>(s.dt_reason), static_cast<double>(s.retries)})

@@ -68,10 +68,22 @@ const Item column_items[] = {D(gp_column, x_min, 3 * dl), D(gp_column, y_min, dl
                              D(gp_column, width, 6 * dl), D(gp_column, height, 5 * dl),
                              I(gp_column, material, 1),   D(gp_column, vx, 0.5),
                              D(gp_column, vy, -0.5),      I(gp_column, initial_pressure, 1)};
-const Item plate_items[] = {
-    D(gp_plate, x0, 10 * dl),          D(gp_plate, y0, 4 * dl),         D(gp_plate, x1, -10 * dl), D(gp_plate, y1, dl),
-    I(gp_plate, friction, 2),          D(gp_plate, wall_mu, 0.3),       D(gp_plate, vx, 0.2),      D(gp_plate, vy, 0.4),
-    D(gp_plate, normal_pressure, 200), D(gp_plate, mass_per_length, 3), I(gp_plate, fluidity, 1)};
+const Item plate_items[] = {D(gp_plate, x0, 10 * dl),
+                            D(gp_plate, y0, 4 * dl),
+                            D(gp_plate, x1, -10 * dl),
+                            D(gp_plate, y1, dl),
+                            I(gp_plate, friction, 2),
+                            D(gp_plate, wall_mu, 0.3),
+                            D(gp_plate, vx, 0.2),
+                            D(gp_plate, vy, 0.4),
+                            D(gp_plate, normal_pressure, 200),
+                            D(gp_plate, mass_per_length, 3),
+                            L(gp_plate, n_points, 4),
+                            D(gp_plate, pivot_x, 0.05),
+                            D(gp_plate, pivot_y, 0.1),
+                            D(gp_plate, omega, 2),
+                            D(gp_plate, surface_velocity, 0.3),
+                            I(gp_plate, fluidity, 1)};
 const Item output_items[] = {D(gp_output, every_seconds, 1e-3), I(gp_output, fields, 0xff),
                              I(gp_output, compression, 1), I(gp_output, single_precision, 1), L(gp_output, append, 1)};
 
@@ -123,7 +135,7 @@ int32_t callback(void *user, gp_sim *sim) {
         break;
     case 5: ALWAYS(checked(gp_save(sim, own_file("callback.gp").c_str())) == GP_OK); break;
     case 6:
-        checked(gp_set_plate_velocity(sim, 0, 0.1, 0));
+        checked(gp_set_plate_motion(sim, 0, 0.1, 0, host.reenter & 8 ? 3 : 0));
         ALWAYS(checked(gp_set_gravity(sim, 0.1 * host.steps_left, -9)) == GP_OK);
         break;
     case 7: ALWAYS(checked(gp_output_close(sim)) == GP_E_STATE); break;
@@ -256,17 +268,31 @@ void add(Host &host, Bytes &in, int what) {
         p.x0 = kind & 1 ? 0.3 : 0;
         p.x1 = kind & 1 ? -0.1 : 0;
         p.y1 = kind & 1 ? 0 : 0.2;
-        double t[4], x[4], y[4];
+        double t[4], x[4], y[4], angle[4], line_x[7], line_y[7];
+        if (kind & 8) { // a line: valleys, rings, or whatever the input makes of them
+            const bool closed = (kind & 16) != 0;
+            p.x0 = p.y0 = p.x1 = p.y1 = 0;
+            p.n_points = kind & 32 ? in.integer(5) : closed ? 7 : 2 + in.below(6);
+            for (int k = 0; k < 7; ++k) {
+                const double turn = (kind & 64 ? -1.05 : 1.05) * (k % 6);
+                line_x[k] = in.number(closed ? 0.05 + 0.12 * std::cos(turn) : 0.3 - 0.08 * k);
+                line_y[k] = in.number(closed ? 0.05 + 0.12 * std::sin(turn) : k % 2 * 0.05);
+            }
+            p.point_x = p.n_points <= 7 ? line_x : nullptr;
+            p.point_y = line_y;
+        }
         if (kind & 2) {
             p.n_knots = kind & 4 ? in.integer(2) : in.below(5);
             for (int k = 0; k < 4; ++k) {
                 t[k] = in.number(k * 1e-3);
                 x[k] = in.number(0.001);
                 y[k] = in.number(0.002 * k);
+                angle[k] = in.number(0.01 * k);
             }
             p.knot_t = p.n_knots <= 4 ? t : nullptr;
             p.knot_x = x;
             p.knot_y = p.n_knots <= 4 ? y : nullptr;
+            p.knot_angle = kind & 128 ? angle : nullptr;
         }
         const gp_plate *given = plate.change(in, plate_items);
         unless_changed(host.sim, [&] { return give(gp_add_plate(host.sim, given, &id)); });
@@ -344,10 +370,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, std::size_t size) {
             break;
         case 12:
             unless_changed(host.sim, [&] {
-                const int plate = in.below(5) - 1;
+                const int32_t plate = in.below(5) - 1;
                 const double x = in.number(0.1), y = in.number(0.3);
-                return plate == 3 ? gp_set_gravity(host.sim, 30 * x, -30 * y)
-                                  : gp_set_plate_velocity(host.sim, plate, x, y);
+                if (plate == 3)
+                    return gp_set_gravity(host.sim, 30 * x, -30 * y);
+                return in.below(2) ? gp_set_plate_velocity(host.sim, plate, x, y)
+                                   : gp_set_plate_motion(host.sim, plate, x, y, in.number(4));
             });
             break;
         case 13: checked(gp_set_callback(host.sim, in.integer(1), callback, &host)); break;

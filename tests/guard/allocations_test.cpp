@@ -53,6 +53,7 @@ gp_config flow_config(Flow flow) {
     const bool periodic = flow == Flow::periodic;
     gp_config c = config(0.01);
     c.jitter = 0.1;
+    c.sound_speed = 20; // steps as long as the flow allows, so that the warm-up is long enough
     c.gravity_x = periodic ? 4.5 : 0;
     c.periodic_x_max = periodic ? 0.4 : 0;
     return c;

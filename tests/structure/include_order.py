@@ -7,7 +7,7 @@ import sys
 LAYERS = [
     ["granperi/gp", "error", "check", "entry", "float_environment", "parallel"],
     ["geometry", "kernel", "lanes", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/linearized"],
-    ["scene", "scene_constants", "scene_defaults", "scene_falls", "scene_stress"],
+    ["scene", "scene_constants", "scene_defaults", "scene_falls", "scene_plates", "scene_stress"],
     ["particles"],
     ["viscous_system"],
     ["periodic"],
@@ -23,7 +23,7 @@ LAYERS = [
     ["stages/*"],
     ["plan", "plan_implicit", "plan_paper", "stage_rows", "mistakes", "warnings"],
     ["sim"],
-    ["fields", "diagnostics", "diagnostics_mass", "diagnostics_rest", "diagnostics_shape", "diagnostics_surface", "io/*"],
+    ["sort_by_x", "fields", "diagnostics", "diagnostics_mass", "diagnostics_rest", "diagnostics_shape", "diagnostics_surface", "io/*"],
     ["api"],
 ]
 

@@ -80,6 +80,50 @@ int32_t add_column(gp_sim *sim, double x, double y, int columns, int rows, doubl
     return id;
 }
 
+void add_line(gp_sim *sim, const std::vector<double> &x, const std::vector<double> &y, void (*set)(gp_plate &)) {
+    gp_plate p;
+    CHECK(gp_plate_init(&p, sizeof p));
+    p.n_points = static_cast<int64_t>(x.size());
+    p.point_x = x.data();
+    p.point_y = y.data();
+    set(p);
+    CHECK(gp_add_plate(sim, &p, nullptr));
+}
+
+// Bodies that turn: a drum by a table of its angle, a vane by the host, a roll across the ends of the period; and hills, across
+// them too, whose surface runs.
+void add_turning(gp_sim *sim, int columns, int rows) {
+    const double width = columns * dl, height = rows * dl, middle = 3 * width, top = 2 * height;
+    static double knot_t[] = {0, 0.004, 0.02, 0.05}, knot_angle[] = {0, 0.01, 0.2, 0.4};
+    add_line(sim,
+             {middle - width, middle - width, middle - 0.5 * width, middle + 0.5 * width, middle + width,
+              middle + width, middle - width},
+             {0, top, 1.25 * top, 1.25 * top, top, 0, 0}, [](gp_plate &p) {
+                 p.pivot_x = 0.5 * (p.point_x[0] + p.point_x[5]);
+                 p.pivot_y = 0.5 * p.point_y[1];
+                 p.n_knots = 4;
+                 p.knot_t = knot_t;
+                 p.knot_angle = knot_angle;
+             });
+    add_column(sim, middle - 0.5 * width, 0, columns, rows);
+    add_plate(sim, middle - 0.5 * width - 2 * dl, dl, middle - 0.5 * width - 2 * dl, top - dl, [](gp_plate &p) {
+        p.friction = GP_WALL_COULOMB;
+        p.wall_mu = 0.2;
+        p.pivot_x = p.x0;
+        p.pivot_y = p.y1;
+    });
+    add_line(sim, {1.75 * width, 1.25 * width, 0.75 * width, 0.25 * width, -0.25 * width},
+             {-height, -height - 4 * dl, -height, -height + 4 * dl, -height},
+             [](gp_plate &p) { p.surface_velocity = -0.3; });
+    add_column(sim, 0, -height + 5 * dl, columns, rows / 2);
+    add_line(sim, {0.1 * width, 0, -0.1 * width, 0, 0.1 * width},
+             {1.4 * height, 1.4 * height + 0.1 * width, 1.4 * height, 1.4 * height - 0.1 * width, 1.4 * height},
+             [](gp_plate &p) {
+                 p.pivot_y = p.point_y[0];
+                 p.omega = -8;
+             });
+}
+
 gp_sim *make(const Options &o) {
     const std::string &scene = o.scene;
     const bool paper = scene == "paper" || scene == "regularized" || scene == "paper_driven";
@@ -115,6 +159,8 @@ gp_sim *make(const Options &o) {
     }
     if (scene == "diverge_periodic")
         c.periodic_x_max = width;
+    if (scene == "turning")
+        c.periodic_x_max = 6 * width;
     gp_sim *sim;
     CHECK(gp_create(&c, &sim));
     gp_material heavy;
@@ -128,7 +174,10 @@ gp_sim *make(const Options &o) {
         CHECK(gp_add_material(sim, &heavy, nullptr));
 
     const int32_t main_material = scene.rfind("fluid", 0) == 0 ? add_fluid(sim) : 0;
-    if (scene == "periodic" || scene == "fluid_periodic" || scene == "diverge_periodic") {
+    if (scene ==
+        "turning") { // a drum about a heap, a vane that the host turns, a hilly belt, across whose ends it lies
+        add_turning(sim, columns, rows);
+    } else if (scene == "periodic" || scene == "fluid_periodic" || scene == "diverge_periodic") {
         add_plate(sim, width, 0, 0, 0, [](gp_plate &p) { p.fluidity = GP_FLUIDITY_ZERO; });
         add_column(sim, 0, 0, columns, rows, 0.1, 0, main_material);
         add_plate(sim, 0, height, width, height, [](gp_plate &p) {
@@ -179,6 +228,8 @@ gp_sim *make(const Options &o) {
 
 // What the host does before a step, whatever the process.
 void drive(gp_sim *sim, const std::string &scene, int64_t step) {
+    if (scene == "turning" && step % 30 == 7)
+        CHECK(gp_set_plate_motion(sim, 1, 0.05, 0, step < 30 ? 2 : step < 60 ? -3 : 0.5));
     if (scene != "driven" && scene != "paper_driven")
         return;
     if (step == 9)

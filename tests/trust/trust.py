@@ -28,10 +28,10 @@ except ImportError:
     if __name__ == "__main__" and os.path.realpath(sys.executable) != os.path.realpath(system) and os.path.exists(system):
         os.execv(system, [system, *sys.argv])
 
-# What there is to go wrong: the schemes; plates that move by tables, by the host, under loads; periods, side walls, retries;
-# a material with a granular fluidity in these.
+# What there is to go wrong: the schemes; plates that move by tables, by the host, under loads, that turn; periods, side walls,
+# retries; a material with a granular fluidity in these.
 SCENES = ["default", "implicit", "regularized", "paper", "paper_local", "periodic", "driven", "paper_driven", "loaded",
-          "channel", "retry", "fluid", "fluid_periodic", "fluid_retry"]
+          "channel", "retry", "turning", "fluid", "fluid_periodic", "fluid_retry"]
 DIVERGING = ["diverge", "diverge_periodic"]
 END = 90
 
