@@ -361,9 +361,9 @@ GP_API gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
  *   - the flow asks for steps below 1/128 of spacing / wave speed: speeds differ by 32 wave speeds. At the first step this is
  *     GP_E_ARGUMENT: the sound_speed is wrong for the scene.
  * It is found before anything moves, and the step is undone: fields, their order, clock, energies, plates and loads have the
- * bits of the last good step. But in a periodic scene particles that have just returned into the period stay there and the
- * order is new, GP_FIELD_NUMBER_DENSITY may differ by rounding, and gp_state.volume_drift by the ghosts that are seen anew
- * (by some .001).
+ * bits of the last good step. But GP_FIELD_NUMBER_DENSITY may differ by rounding, gp_state.volume_drift by the ghosts that are
+ * seen anew (by some .001), and in a periodic scene particles that have just returned into the period stay there and the order
+ * is new.
  *
  * With gp_config.retry_halvings a step that diverges is undone and taken as two steps of half its size, one after the other,
  * each of which is halved likewise if it diverges, up to that many times. Each of them is a whole step to the counter, the
