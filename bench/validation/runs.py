@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import references as ref
 from run import Program, Run, cheapest_first
+from fluid_runs import PROGRAM as FLUIDITY
+from fluid_runs import fluid
 from wall_runs import PROGRAM as WALLS
 from wall_runs import walls
 
@@ -30,6 +32,7 @@ PROGRAMS = {
     "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
     "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),
     "walls": WALLS,
+    "fluidity": FLUIDITY,
 }
 
 
@@ -365,6 +368,7 @@ def studies() -> dict[str, list[Run]]:
         "couette": [couette(case) for case in COUETTE_CASES],
         "exact": [exact(case, r) for case, (_, _, resolutions, _) in EXACT_CASES.items() for r in resolutions],
         "walls": walls(),
+        "fluidity": fluid(),
     }
 
 
