@@ -1,6 +1,7 @@
 """All figures of docs/validation.md by name."""
 from __future__ import annotations
 
+import fluid_sections
 import paper_figures
 import physics_figures
 from plotting import Figures
@@ -21,5 +22,6 @@ FIGURES: Figures = {
     "couette": physics_figures.couette,
     "run_time": physics_figures.run_time,
     "exact": physics_figures.exact,
+    "fluidity": fluid_sections.figure,
 }
 

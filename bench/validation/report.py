@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import document
 import figures
+import fluid_sections as fluidity
 import paper_sections as paper
 import physics_sections as physics
 import references as ref
@@ -174,6 +175,10 @@ The column of a = 1.25, gates gone at once, with public codes at the same μ(I).
 ## Walls and inclines
 
 {walls.section(collection)}
+
+## Granular fluidity
+
+{fluidity.section(collection, lambda name, caption: figure(name, drawn, caption))}
 
 ## Verdict on the factor 2
 

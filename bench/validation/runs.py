@@ -5,9 +5,9 @@ import math
 from dataclasses import dataclass
 
 import references as ref
-from run import Program, Run, cheapest_first
 from fluid_runs import PROGRAM as FLUIDITY
 from fluid_runs import fluid
+from run import Program, Run, cheapest_first
 from wall_runs import PROGRAM as WALLS
 from wall_runs import walls
 
