@@ -282,14 +282,13 @@ def disagreements(results: Collection) -> list[str]:
                 f"Default, {title}: not yet at rest at the end, {result.summary['time']:g} s "
                 f"(kinetic energy {significant(result.summary['kinetic_share'], 2)} of E0)."
             )
-    worst = (
-        max(
+    worst = max(
+        (
             (abs(r.summary["energy_error_share"]), r.name)
             for r in results.found.values()
             if "energy_error_share" in r.summary and not any(s in r.name for s in ("nonlocal", "local_"))
-        )
-        if results.found
-        else (0.0, "")
+        ),
+        default=(0.0, ""),
     )
     if worst[0] > 0.005:
         found.append(
