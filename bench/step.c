@@ -14,7 +14,7 @@
 enum { ENTRIES_MAX = 128 };
 
 typedef struct choices {
-    double resolution, threads, from, steps, repeat, horizon, diffusion, walls;
+    double resolution, threads, from, steps, repeat, horizon, diffusion, walls, amplitude;
     const char *read, *write;
 } choices;
 
@@ -100,6 +100,7 @@ static gp_sim *create(const choices *c) {
     const double reach = width / 2 + 4 * height + 20 * spacing;
     gp_config config;
     gp_column column;
+    gp_material material;
     gp_sim *sim;
     CHECK(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
     config.spacing = spacing;
@@ -109,16 +110,17 @@ static gp_sim *create(const choices *c) {
     if (!isnan(c->diffusion))
         config.density_diffusion = c->diffusion;
     CHECK(gp_create(&config, &sim));
+    CHECK(gp_material_init(&material, sizeof material));
+    material.nonlocal_amplitude = c->amplitude;
+    CHECK(gp_add_material(sim, &material, NULL));
     if (c->read) {
-        gp_material material;
-        CHECK(gp_material_init(&material, sizeof material));
-        CHECK(gp_add_material(sim, &material, NULL));
         read_particles(sim, c->read);
     } else {
         CHECK(gp_column_init(&column, sizeof column));
         column.x_min = -width / 2;
         column.width = width;
         column.height = height;
+        column.material = 1;
         CHECK(gp_add_column(sim, &column, NULL));
     }
     example_add_floor(sim, -reach, reach);
@@ -207,16 +209,18 @@ static void measure_and_report(gp_sim *sim, const choices *c) {
 }
 
 int main(int argc, char **argv) {
-    choices c = {126, 1, 0.15, 300, 1, 4, NAN, 0, NULL, NULL};
+    choices c = {126, 1, 0.15, 300, 1, 4, NAN, 0, 0, NULL, NULL};
     const bench_option options[] = {
         {"--resolution", "particles over the width; N = 0.625 of its square [126]", BENCH_WHOLE, &c.resolution, 4, 1e5},
         {"--threads", "threads, 0 for the OpenMP default [1]", BENCH_WHOLE, &c.threads, 0, 1024},
         {"--from", "s, when the measurement begins [0.15]", BENCH_NUMBER, &c.from, 0, 1e6},
         {"--steps", "steps to measure [300]", BENCH_WHOLE, &c.steps, 1, 1e9},
-        {"--repeat", "measurements of --steps steps, one after the other: their medians and the least CPU time [1]", BENCH_WHOLE, &c.repeat, 1, 1e6},
+        {"--repeat", "measurements of --steps steps, one after the other: their medians and the least CPU time [1]",
+         BENCH_WHOLE, &c.repeat, 1, 1e6},
         {"--horizon", "spacings [4]", BENCH_NUMBER, &c.horizon, 1.8, 8},
         {"--diffusion", "density diffusion [the scheme's own]", BENCH_NUMBER, &c.diffusion, 0, 1},
         {"--walls", "1: between smooth walls, so that it stays at rest [0]", BENCH_WHOLE, &c.walls, 0, 1},
+        {"--amplitude", "of the granular fluidity [0: the local law]", BENCH_NUMBER, &c.amplitude, 0, 10},
         {"--read", "begin with the particles of this file [with a column at rest]", BENCH_TEXT, &c.read, 0, 0},
         {"--write", "write the particles at --from to this file, and end", BENCH_TEXT, &c.write, 0, 0},
     };

@@ -341,8 +341,9 @@ gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles
                                      &view.shear_rate,
                                      &view.inertial_number,
                                      &view.viscosity,
-                                     &view.number_density};
-        for (uint32_t k = 0; k < 13; ++k) {
+                                     &view.number_density,
+                                     &view.fluidity};
+        for (uint32_t k = 0; k < std::size(pointers); ++k) {
             const uint32_t bit = GP_FIELD_X << k;
             if (fields & bit)
                 *pointers[k] = read_field(world, bit, sim->derived[k]);

@@ -75,6 +75,10 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
                 return p.density[i] / world.material_of(i).density * world.constants.interaction_lattice.number_density;
             });
         return derive(world, scratch, [&](int64_t i) { return number_density(world, i); });
+    case GP_FIELD_FLUIDITY:
+        if (!p.fluidity.empty())
+            return p.fluidity.data();
+        return derive(world, scratch, [](int64_t) { return 0.0; });
     default: return nullptr;
     }
 }

@@ -143,6 +143,26 @@ void tell_unborne(const Scene &scene, std::vector<std::string> &texts) {
                     part.c_str(), body, others.c_str()));
 }
 
+// The length over which flow spreads is A d, of glass beads half a grain: profiles are those of one dimension from two particles
+// to a grain on.
+constexpr double spacings_per_grain = 2;
+
+void tell_coarse_fluidity(const Scene &scene, std::vector<std::string> &texts) {
+    const double spacing = scene.config().spacing;
+    for (const Body &body : scene.bodies()) {
+        const gp_material &m = scene.materials()[static_cast<std::size_t>(body.material)];
+        const double most = m.grain_diameter / spacings_per_grain;
+        if (m.nonlocal_amplitude == 0 || spacing <= most * (1 + 1e-9))
+            continue;
+        texts.push_back(
+            format_text("gp_material.nonlocal_amplitude = %g of material %d: its length of %.3g m is not resolved at a "
+                        "spacing of %g "
+                        "m: set gp_config.spacing to at most %.3g, half a grain, or nonlocal_amplitude to 0",
+                        m.nonlocal_amplitude, body.material, m.nonlocal_amplitude * m.grain_diameter, spacing, most));
+        return;
+    }
+}
+
 } // namespace
 
 std::vector<std::string> scene_mistakes(const World &world) {
@@ -153,6 +173,7 @@ std::vector<std::string> scene_mistakes(const World &world) {
     }
     tell_sides(world, texts);
     tell_unborne(*world.scene, texts);
+    tell_coarse_fluidity(*world.scene, texts);
     return texts;
 }
 

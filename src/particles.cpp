@@ -27,6 +27,9 @@ void Particles::allocate(int64_t n, const Optional &use) {
     }
     if (use.bearing)
         bearing.resize(size);
+    if (use.fluidity)
+        for (Field<double> *field : {&fluidity, &fluid_seen, &fluid_pull, &fluid_pace})
+            field->resize(size);
     scratch_int64_.resize(size);
     scratch_int32_.resize(size);
 }
@@ -43,9 +46,29 @@ void Particles::make_room(int64_t images) {
     grow(column);
     grow(scratch_int32_);
     // The gradient and its like are not read of neighbours, but swap their memory with fields that are.
-    for (Field<double> *field : {&x,   &y,   &vx,  &vy,       &density, &pressure, &sxx,
-                                 &sxy, &lxx, &lxy, &lyx,      &lyy,     &cxx,      &cxy,
-                                 &cyx, &cyy, &syy, &stressed, &flowing, &bearing,  &scratch_double_})
+    for (Field<double> *field : {&x,
+                                 &y,
+                                 &vx,
+                                 &vy,
+                                 &density,
+                                 &pressure,
+                                 &sxx,
+                                 &sxy,
+                                 &lxx,
+                                 &lxy,
+                                 &lyx,
+                                 &lyy,
+                                 &cxx,
+                                 &cxy,
+                                 &cyx,
+                                 &cyy,
+                                 &syy,
+                                 &stressed,
+                                 &flowing,
+                                 &bearing,
+                                 &fluidity,
+                                 &fluid_seen,
+                                 &scratch_double_})
         grow(*field);
 }
 
@@ -62,7 +85,8 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
     gather(id, scratch_int64_);
     gather(column, scratch_int32_);
     // The gradient is made anew in each step, but readers may ask for it between a reorder and the next one.
-    for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &syy, &lxx, &lxy, &lyx, &lyy})
+    for (Field<double> *field :
+         {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &syy, &fluidity, &lxx, &lxy, &lyx, &lyy})
         gather(*field, scratch_double_);
 }
 

@@ -37,6 +37,8 @@ struct Particles {
     Field<double> sxx, sxy; // Pa, deviatoric stress
     Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
 
+    Field<double> fluidity; // 1/s, g; only where a material has one (material/fluidity.hpp)
+
     // Made anew in each step.
     Field<double> lxx, lxy, lyx, lyy; // 1/s, velocity gradient L_ab = du_a/dr_b
     Field<double> gxx, gxy, gyy;      // 1/m2, inverse shape tensor K^-1
@@ -45,15 +47,18 @@ struct Particles {
     Field<double> carried;            // share of its stress that a particle near a plate carries; only with plates
     Field<double> flowing;            // 1 at yield or without stress, else 0; only where the density is integrated
     Field<double> crowding;           // sum of w where it flows, plates included, else 0; only with that
-    Field<double> bearing;            // 1 under pressure, else 0; only with density diffusion
-    Field<double> ax, ay;             // m/s2, by the forces
-    Field<double> push_x, push_y;     // m/s, by collisions and contacts with plates after that
+    Field<double> bearing;            // 1 under pressure, else 0; only with density diffusion or fluidity
+    Field<double> fluid_seen;         // 1/s, fluidity where there is pressure, else 0
+    Field<double> fluid_pull, fluid_pace; // 1/s, 1: what its neighbours pull the fluidity to, and how hard
+    Field<double> ax, ay;                 // m/s2, by the forces
+    Field<double> push_x, push_y;         // m/s, by collisions and contacts with plates after that
 
     // Fields that only some scenes need.
     struct Optional {
         bool stressed; // penalty
         bool flowing;  // density by continuity
-        bool bearing;  // density diffusion
+        bool bearing;  // density diffusion, fluidity
+        bool fluidity; // a material has one
         bool carried;  // plates, but by number density
         bool shape;    // inverse shape tensor and the second row of sigma K^-1
         bool syy;

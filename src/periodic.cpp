@@ -24,6 +24,8 @@ void Images::make(Particles &particles, const Period &period, double reach) {
     particles.make_room(count);
     copy(particles.column);
     copy({&particles.vx, &particles.vy, &particles.density, &particles.pressure, &particles.sxx, &particles.sxy});
+    if (!particles.fluidity.empty())
+        copy(particles.fluidity);
     copy_positions(particles);
 }
 

@@ -23,6 +23,7 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
     t.penalty = constants.penalty > 0;
     t.collisions = scene.config().collision_distance > 0;
     t.diffusion = scene.config().density_diffusion > 0;
+    t.fluid = constants.fluid;
     return t;
 }
 
@@ -74,7 +75,10 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
          nullptr, ""},
         // reads velocity gradient; writes density, pressure
         {"density", t.particles, "density by continuity", no_particles, stages::density, nullptr, ""},
-        // reads velocity gradient, pressure; writes stress, sigma K^-1
+        // reads what neighbours pull the fluidity to, summed up by the gradient; writes it for the stress
+        {"fluidity", t.particles && t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
+         stages::fluidity, nullptr, ""},
+        // reads velocity gradient, pressure; writes stress, sigma K^-1; with fluidity that, too
         {"stress", t.particles, "elastic trial and return map", no_particles, stages::stress, nullptr, ""},
         // reads pressure, stress; writes ghost stress
         {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
@@ -205,8 +209,13 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     const char *by_number = "the density is that of the positions";
     optional("flowing", !viscous, "densities are tied where it flows", by_number, bytes_of(p.flowing));
     optional("crowding", !viscous, "what flows keeps its volume", by_number, bytes_of(p.crowding));
-    entries.push_back(field_entry(
-        "bearing", t.diffusion, t.diffusion ? "density_diffusion > 0" : "density_diffusion is 0", bytes_of(p.bearing)));
+    entries.push_back(field_entry("bearing", t.diffusion || t.fluid,
+                                  t.diffusion ? "density_diffusion > 0"
+                                  : t.fluid   ? "nonlocal_amplitude > 0"
+                                              : "density_diffusion and nonlocal_amplitude are 0",
+                                  bytes_of(p.bearing)));
+    optional("fluidity", t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
+             bytes_of_all(p.fluidity, p.fluid_seen) + bytes_of_all(p.fluid_pull, p.fluid_pace));
     const bool flights = t.plates && !by_number_density(t.scheme);
     entries.push_back(field_entry("carried", flights,
                                   flights     ? "grains in flight above a plate carry no stress"

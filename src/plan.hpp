@@ -11,7 +11,7 @@ namespace gp {
 // The scene's choices.
 struct Traits {
     Scheme scheme;
-    bool particles, periodic, plates, friction_plates, channel, side_walls, penalty, collisions, diffusion;
+    bool particles, periodic, plates, friction_plates, channel, side_walls, penalty, collisions, diffusion, fluid;
 };
 
 Traits traits_of(const Scene &scene, const Constants &constants);

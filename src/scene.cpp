@@ -148,6 +148,18 @@ int32_t Scene::add_material(const gp_material &m) {
     if (m.mu_2 < m.mu_s)
         throw make_error(GP_E_ARGUMENT, "gp_material.mu_2 = %g: expected a number >= mu_s = %g", m.mu_2, m.mu_s);
     require_positive("gp_material.i0", m.i0);
+    require_between("gp_material.nonlocal_amplitude", m.nonlocal_amplitude, 0, 10);
+    require_positive("gp_material.fluidity_time", m.fluidity_time);
+    if (m.nonlocal_amplitude > 0) {
+        if (scheme_of(config_) != Scheme::adjoint)
+            throw make_error(GP_E_UNSUPPORTED,
+                             "gp_material.nonlocal_amplitude = %g: expected 0, the fluidity is of the default scheme",
+                             m.nonlocal_amplitude);
+        require(m.mu_s > 0, "gp_material.mu_s", m.mu_s, "a number > 0 with nonlocal_amplitude");
+        require(m.mu_2 > m.mu_s, "gp_material.mu_2", m.mu_2, "a number > mu_s with nonlocal_amplitude");
+        require(config_.friction_factor > 0, "gp_config.friction_factor", config_.friction_factor,
+                "a number > 0 with gp_material.nonlocal_amplitude");
+    }
     check_k0(m, config_);
     materials_.push_back(m);
     return static_cast<int32_t>(materials_.size()) - 1;

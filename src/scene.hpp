@@ -65,6 +65,7 @@ struct PlateSpec {
     double start_angle = 0;        // rad, the same of its turn
     double load = 0;               // Pa on its back, towards the material; 0: the motion is prescribed
     double mass = 0;               // kg/m2 of a loaded plate; 0: chosen with the constants
+    int32_t fluidity = GP_FLUIDITY_FREE;
 
     // What follows from the points.
     double length = 0;                   // m, of the line
@@ -104,6 +105,12 @@ struct MaterialConstants {
     double bulk_modulus; // rho0 c0^2, Pa
     ReturnMap map;
     Regularized law;
+};
+
+// Of the granular fluidity. Apart from the others: loops that have nothing to do with it do not step over it.
+struct FluidityConstants {
+    double cooperativity2; // m2, (A d)^2; 0: the local law
+    double time;           // s, t0
 };
 
 // Sound speed over the largest flow speed, so that the density varies by about 1 % ([1], section 2.2).
@@ -159,6 +166,8 @@ struct Constants {
     double contrast_step;          // s, largest step that is stable where materials of different density meet
     double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     double elastic_penalty;        // the same inside the yield surface, over that
+    bool fluid;                    // a material in use has a fluidity
+    std::vector<FluidityConstants> fluidities; // of the materials
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
 

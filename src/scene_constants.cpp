@@ -271,12 +271,17 @@ Constants Scene::constants() const {
         k.map.mu_2 = config_.friction_factor * m.mu_2;
         k.map.rate_factor = m.i0 / (m.grain_diameter * std::sqrt(m.grain_density));
         k.map.shear_modulus = shear_to_bulk_of(m) * k.bulk_modulus;
+        const double cooperativity = m.nonlocal_amplitude * m.grain_diameter;
+        c.fluidities.push_back({cooperativity * cooperativity, m.fluidity_time});
         k.law = {k.map.mu_s, k.map.mu_2, k.map.rate_factor, config_.delta};
         c.materials.push_back(k);
     }
     c.body_material.reserve(bodies_.size());
     for (const Body &body : bodies_)
         c.body_material.push_back(body.material);
+    c.fluid = std::any_of(c.body_material.begin(), c.body_material.end(), [&](int32_t material) {
+        return c.fluidities[static_cast<std::size_t>(material)].cooperativity2 > 0;
+    });
     c.plate_mass = light_plate * heaviest * c.spacing;
     c.plate_step = INFINITY;
     for (const PlateSpec &plate : plates_)

@@ -203,6 +203,7 @@ int32_t Scene::add_plate(const gp_plate &p) {
             GP_E_ARGUMENT, "gp_plate from x = %g to %g m: expected an extent in x of at most the period, %g m",
             spec.middle.x() - 0.5 * spec.extent.x(), spec.middle.x() + 0.5 * spec.extent.x(), period.length);
     require_choice("gp_plate.friction", p.friction, 3);
+    require_choice("gp_plate.fluidity", p.fluidity, 2);
     require_not_negative("gp_plate.wall_mu", p.wall_mu);
     require(p.wall_mu == 0 || p.friction == GP_WALL_COULOMB, "gp_plate.wall_mu", p.wall_mu,
             "0 unless friction is GP_WALL_COULOMB");
@@ -224,6 +225,7 @@ int32_t Scene::add_plate(const gp_plate &p) {
 
     spec.friction = p.friction;
     spec.wall_mu = p.wall_mu;
+    spec.fluidity = p.fluidity;
     spec.set_pivot({p.pivot_x, p.pivot_y});
     spec.motion = {{p.vx, p.vy}, p.omega};
     spec.surface_velocity = p.surface_velocity;

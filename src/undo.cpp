@@ -34,6 +34,8 @@ FieldList fields_changed_in_place(World &world) {
         fields.add({&p.x, &p.y, &p.vx, &p.vy});
     if (by_number_density(scheme))
         fields.add({&p.syy});
+    if (world.constants.fluid)
+        fields.add({&p.fluidity});
     return fields;
 }
 

@@ -127,7 +127,10 @@ private:
 bool flows(const World &world, int64_t i) {
     const Particles &p = world.particles;
     const double dxx = 0.5 * (p.lxx[i] - p.lyy[i]), dxy = 0.5 * (p.lxy[i] + p.lyx[i]);
-    return p.pressure[i] > 0 && world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]) &&
+    const bool yields = world.is_fluid(i)
+                            ? p.fluidity[i] > 0
+                            : world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
+    return p.pressure[i] > 0 && yields &&
            2 * std::sqrt(dxx * dxx + dxy * dxy) * world.constants.time_scale() > least_strain;
 }
 

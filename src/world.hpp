@@ -141,6 +141,10 @@ struct World {
     const MaterialConstants &material_of(int64_t i) const {
         return constants.materials[constants.body_material[particles.column[i]]];
     }
+    const FluidityConstants &fluidity_of(int64_t i) const {
+        return constants.fluidities[constants.body_material[particles.column[i]]];
+    }
+    bool is_fluid(int64_t i) const { return fluidity_of(i).cooperativity2 > 0; }
 };
 
 // The world of a scene before its first step: particles and plates in place, no lists yet.

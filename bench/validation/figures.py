@@ -1,6 +1,7 @@
 """All figures of docs/validation.md by name."""
 from __future__ import annotations
 
+import fluid_sections
 import hopper_section
 import paper_figures
 import physics_figures
@@ -23,5 +24,6 @@ FIGURES: Figures = {
     "run_time": physics_figures.run_time,
     "exact": physics_figures.exact,
     "hopper": hopper_section.figure,
+    "fluidity": fluid_sections.figure,
 }
 

@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import document
 import figures
+import fluid_sections as fluidity
 import hopper_section as hopper
 import paper_sections as paper
 import physics_sections as physics
@@ -179,6 +180,10 @@ The column of a = 1.25, gates gone at once, with public codes at the same μ(I).
 ## A hopper
 
 {hopper.section(collection, figure("hopper", drawn, "Flow rate over what is left above the outlet"))}
+
+## Granular fluidity
+
+{fluidity.section(collection, lambda name, caption: figure(name, drawn, caption))}
 
 ## Verdict on the factor 2
 

@@ -5,6 +5,8 @@ import math
 from dataclasses import dataclass
 
 import references as ref
+from fluid_runs import PROGRAM as FLUIDITY
+from fluid_runs import fluid
 from run import Program, Run, cheapest_first
 from wall_runs import PROGRAM as WALLS
 from wall_runs import hoppers, walls
@@ -30,6 +32,7 @@ PROGRAMS = {
     "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
     "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),
     "walls": WALLS,
+    "fluidity": FLUIDITY,
 }
 
 
@@ -366,6 +369,7 @@ def studies() -> dict[str, list[Run]]:
         "exact": [exact(case, r) for case, (_, _, resolutions, _) in EXACT_CASES.items() for r in resolutions],
         "walls": walls(),
         "hopper": hoppers(),
+        "fluidity": fluid(),
     }
 
 

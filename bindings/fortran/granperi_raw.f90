@@ -136,6 +136,11 @@ module granperi_raw
         real(c_double) :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
         real(c_double) :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double) :: i0 !! I at which mu is half way between; > 0 [0.3]
+        real(c_double) :: nonlocal_amplitude
+            !! A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10; glass
+            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default scheme, else
+            !! GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow is mu(I) as well [0]
+        real(c_double) :: fluidity_time !! s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4]
         real(c_double) :: k0
             !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along
             !! the direction in which a column presses; 0: isotropic, or none across as gp_column.initial_pressure says.
@@ -247,7 +252,13 @@ module granperi_raw
         real(c_double) :: surface_velocity
             !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
             !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
+        integer(c_int32_t) :: fluidity !! GP_FLUIDITY_..., of materials with nonlocal_amplitude [GP_FLUIDITY_FREE]
     end type
+
+    !> What a plate does to the granular fluidity of the material in front of it.
+    integer(c_int32_t), parameter :: GP_FLUIDITY_FREE = 0 !! no flux: its gradient along the normal is 0
+    integer(c_int32_t), parameter :: GP_FLUIDITY_ZERO = 1
+        !! it is 0 at the surface: grains glued to the plate hold their neighbours
 
     integer(c_int32_t), parameter :: GP_LOG_INFO = 0
     integer(c_int32_t), parameter :: GP_LOG_WARNING = 1
@@ -268,9 +279,10 @@ module granperi_raw
     integer(c_int32_t), parameter :: GP_FIELD_INERTIAL_NUMBER = 4096
     integer(c_int32_t), parameter :: GP_FIELD_VISCOSITY = 8192
     integer(c_int32_t), parameter :: GP_FIELD_NUMBER_DENSITY = 16384
+    integer(c_int32_t), parameter :: GP_FIELD_FLUIDITY = 32768
     integer(c_int32_t), parameter :: GP_FIELD_POSITION = 12
     integer(c_int32_t), parameter :: GP_FIELD_VELOCITY = 48
-    integer(c_int32_t), parameter :: GP_FIELD_ALL = 32767
+    integer(c_int32_t), parameter :: GP_FIELD_ALL = 65535
 
     type, bind(c) :: gp_particles
         integer(c_int32_t) :: struct_size = 0 !! set by the caller
@@ -299,6 +311,8 @@ module granperi_raw
         type(c_ptr) :: number_density
             !! N = sum of w over the neighbours within interaction_radius ([1] 2.4); with GP_DENSITY_NUMBER the scheme's
             !! own, with the ghosts behind plates
+        type(c_ptr) :: fluidity
+            !! 1/s, g: the plastic shear rate 2 |gamma| over tau / p; 0 without gp_material.nonlocal_amplitude
     end type
 
     !> What set the time step.
@@ -709,14 +723,14 @@ module granperi_raw
         !> gravity, neither a plate that faces it nor a column that is borne; a scene without material; - a sound_speed
         !> that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
         !> plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the
-        !> stable limit. Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew,
-        !> compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in
-        !> reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
-        !> particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy
-        !> error above 2 % of the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 %
-        !> closer than their density says where at least a fifth of them flow (gp_state.volume_drift; these three not of
-        !> the schemes of [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves
-        !> its cost.
+        !> stable limit; - a material with nonlocal_amplitude and a spacing of more than half of its grain_diameter.
+        !> Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew, compression above 3
+        !> % of a fifth of the particles or above 9 % of any (not of the schemes of [1]), a plate in reach of material
+        !> at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate, particles that fall
+        !> below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy error above 2 % of
+        !> the largest energy in the ledger and, every 1024 steps, particles that lie more than 2 % closer than their
+        !> density says where at least a fifth of them flow (gp_state.volume_drift; these three not of the schemes of
+        !> [1]). A GP_LOG_INFO at the first step: a sound_speed that a blow sets, and the one that saves its cost.
         function gp_set_log(sim, log, user) bind(c, name="gp_set_log") result(answer)
             import
             type(c_ptr), value :: sim

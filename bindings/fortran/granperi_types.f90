@@ -43,6 +43,8 @@ module granperi_types
     public :: GP_WALL_NO_SLIP
     public :: GP_WALL_FREE_SLIP
     public :: GP_WALL_COULOMB
+    public :: GP_FLUIDITY_FREE
+    public :: GP_FLUIDITY_ZERO
     public :: GP_LOG_INFO
     public :: GP_LOG_WARNING
     public :: GP_FIELD_ID
@@ -60,6 +62,7 @@ module granperi_types
     public :: GP_FIELD_INERTIAL_NUMBER
     public :: GP_FIELD_VISCOSITY
     public :: GP_FIELD_NUMBER_DENSITY
+    public :: GP_FIELD_FLUIDITY
     public :: GP_FIELD_POSITION
     public :: GP_FIELD_VELOCITY
     public :: GP_FIELD_ALL
@@ -109,6 +112,8 @@ module granperi_types
         real(c_double), pointer, contiguous :: number_density(:) => null()
             !! N = sum of w over the neighbours within interaction_radius ([1] 2.4); with GP_DENSITY_NUMBER the scheme's
             !! own, with the ghosts behind plates
+        real(c_double), pointer, contiguous :: fluidity(:) => null()
+            !! 1/s, g: the plastic shear rate 2 |gamma| over tau / p; 0 without gp_material.nonlocal_amplitude
     end type
 
     interface gp_config
@@ -252,13 +257,20 @@ contains
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_material( &
-            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, k0, status, message) result(made)
+            grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, nonlocal_amplitude, fluidity_time, k0, &
+            status, message) result(made)
         real(c_double), intent(in), optional :: grain_density !! kg/m3, rho_s; > 0 [2500]
         real(c_double), intent(in), optional :: volume_fraction !! phi, so rho = phi rho_s; > 0, <= 1 [0.62]
         real(c_double), intent(in), optional :: grain_diameter !! m, d; > 0 [0.002]
         real(c_double), intent(in), optional :: mu_s !! friction at I = 0; >= 0 [tan 21 deg]
         real(c_double), intent(in), optional :: mu_2 !! friction at large I; >= mu_s [tan 32 deg]
         real(c_double), intent(in), optional :: i0 !! I at which mu is half way between; > 0 [0.3]
+        real(c_double), intent(in), optional :: nonlocal_amplitude
+            !! A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10; glass
+            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default scheme, else
+            !! GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow is mu(I) as well [0]
+        real(c_double), intent(in), optional :: fluidity_time
+            !! s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4]
         real(c_double), intent(in), optional :: k0
             !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along
             !! the direction in which a column presses; 0: isotropic, or none across as gp_column.initial_pressure says.
@@ -281,6 +293,8 @@ contains
         if (present(mu_s)) made%mu_s = mu_s
         if (present(mu_2)) made%mu_2 = mu_2
         if (present(i0)) made%i0 = i0
+        if (present(nonlocal_amplitude)) made%nonlocal_amplitude = nonlocal_amplitude
+        if (present(fluidity_time)) made%fluidity_time = fluidity_time
         if (present(k0)) made%k0 = k0
     end function
 
@@ -325,7 +339,7 @@ contains
     !> The library's defaults, but for what is given, by keyword: the order may change.
     function new_gp_plate( &
             x0, y0, x1, y1, friction, wall_mu, vx, vy, normal_pressure, mass_per_length, pivot_x, pivot_y, omega, &
-            surface_velocity, status, message) result(made)
+            surface_velocity, fluidity, status, message) result(made)
         real(c_double), intent(in), optional :: x0
             !! m, ends of the wetted line. The plate's body is on the left of the way from end 0 to end 1, material is
             !! on the right; the plate acts on material on that side only, so a plate wetted on both sides is two plates
@@ -370,6 +384,8 @@ contains
         real(c_double), intent(in), optional :: surface_velocity
             !! m/s, along the line from its first point to its last, of the wall's surface alone, which stays where it
             !! is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0]
+        integer(c_int32_t), intent(in), optional :: fluidity
+            !! GP_FLUIDITY_..., of materials with nonlocal_amplitude [GP_FLUIDITY_FREE]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_plate) :: made
@@ -391,6 +407,7 @@ contains
         if (present(pivot_y)) made%pivot_y = pivot_y
         if (present(omega)) made%omega = omega
         if (present(surface_velocity)) made%surface_velocity = surface_velocity
+        if (present(fluidity)) made%fluidity = fluidity
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.
@@ -441,5 +458,6 @@ contains
         if (c_associated(raw%inertial_number)) call c_f_pointer(raw%inertial_number, view%inertial_number, [raw%count])
         if (c_associated(raw%viscosity)) call c_f_pointer(raw%viscosity, view%viscosity, [raw%count])
         if (c_associated(raw%number_density)) call c_f_pointer(raw%number_density, view%number_density, [raw%count])
+        if (c_associated(raw%fluidity)) call c_f_pointer(raw%fluidity, view%fluidity, [raw%count])
     end subroutine
 end module

@@ -9,7 +9,7 @@ PAGES = {
     "reading": ("What is read", ["State", "Clock", "History", "Load", "PlanEntry", "Particles", "View", "FieldView"]),
     "results": ("Result files, comparison, cost",
                 ["Output", "Result", "Snapshot", "Difference", "compare", "Estimate", "estimate", "load", "has_feature"]),
-    "names": ("Names of choices", ["Density", "Field", "InitialPressure", "Preset", "StepLimit", "Stress", "Wall"]),
+    "names": ("Names of choices", ["Density", "Field", "Fluidity", "InitialPressure", "Preset", "StepLimit", "Stress", "Wall"]),
     "errors": ("Exceptions", ["Error", "ArgumentError", "ArgumentTypeError", "DivergedError", "FileError", "InternalError",
                               "OutOfMemoryError", "SceneError", "StateError", "UnsupportedError", "VersionError",
                               "GranperiWarning"]),

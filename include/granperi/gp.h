@@ -29,6 +29,7 @@
  *   [1] Jin, Lu, Tai & Xu (2021), J. Fluid Mech. 917: peridynamics in a mesh-free method with the mu(I) rheology.
  *   [2] Dunatunga & Kamrin (2015), J. Fluid Mech. 779: the return map of the mu(I) law.
  *   [3] Adami, Hu & Adams (2012), J. Comput. Phys. 231: wall pressure extrapolated from the fluid.
+ *   [4] Henann & Kamrin (2013), Proc. Natl. Acad. Sci. USA 110; Kamrin & Henann (2015), Soft Matter 11: granular fluidity.
  */
 #ifndef GRANPERI_GP_H
 #define GRANPERI_GP_H
@@ -189,6 +190,11 @@ typedef struct gp_material {
     double mu_s;            /* friction at I = 0; >= 0 [tan 21 deg] */
     double mu_2;            /* friction at large I; >= mu_s [tan 32 deg] */
     double i0;              /* I at which mu is half way between; > 0 [0.3] */
+    double nonlocal_amplitude; /* A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10;
+                                  glass beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default
+                                  scheme, else GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow
+                                  is mu(I) as well [0] */
+    double fluidity_time;      /* s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4] */
     double k0;              /* sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over
                                that along the direction in which a column presses; 0: isotropic, or none across as
                                gp_column.initial_pressure says. Within yield: (1 - m) / (1 + m) .. (1 + m) / (1 - m) with
@@ -282,7 +288,14 @@ typedef struct gp_plate {
                                for none. NULL: the table does not turn the plate [NULL] */
     double surface_velocity; /* m/s, along the line from its first point to its last, of the wall's surface alone, which
                                stays where it is: a belt, a turning roll. Not with GP_WALL_FREE_SLIP [0] */
+    int32_t fluidity;       /* GP_FLUIDITY_..., of materials with nonlocal_amplitude [GP_FLUIDITY_FREE] */
 } gp_plate;
+
+/* What a plate does to the granular fluidity of the material in front of it. */
+enum {
+    GP_FLUIDITY_FREE = 0, /* no flux: its gradient along the normal is 0 */
+    GP_FLUIDITY_ZERO = 1  /* it is 0 at the surface: grains glued to the plate hold their neighbours */
+};
 
 /* Fills *plate with a fixed no-slip plate: its ends have to be set. size: sizeof(gp_plate). */
 GP_API gp_status gp_plate_init(gp_plate *plate, size_t size);
@@ -380,7 +393,8 @@ typedef void (*gp_log)(void *user, int32_t level, const char *text);
  *   - a column or set of particles more than half of which has nothing below it in the direction of gravity, neither a plate
  *     that faces it nor a column that is borne; a scene without material;
  *   - a sound_speed that nothing sets or below the speeds that the scene can reach, particles within a quarter spacing of a
- *     plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the stable limit.
+ *     plate's line or of each other within half a spacing, a column thinner than 3 spacings, a time step beyond the stable limit;
+ *   - a material with nonlocal_amplitude and a spacing of more than half of its grain_diameter.
  * Later: gravity for which the sound speed is too low (gp_set_gravity), a step taken anew, compression above 3 % of a fifth of the particles or above 9 % of any (not of the schemes of [1]),
  * a plate in reach of material at more than 0.3 sound speeds, and, looked at every 64 steps, a particle behind a plate,
  * particles that fall below all plates, more than 10 % of the dissipation by the zero-energy penalty, an energy error above 2 %
@@ -407,9 +421,10 @@ GP_API gp_status gp_set_log(gp_sim *sim, gp_log log, void *user);
 #define GP_FIELD_INERTIAL_NUMBER (1u << 12)
 #define GP_FIELD_VISCOSITY (1u << 13)
 #define GP_FIELD_NUMBER_DENSITY (1u << 14)
+#define GP_FIELD_FLUIDITY (1u << 15)
 #define GP_FIELD_POSITION (GP_FIELD_X | GP_FIELD_Y)
 #define GP_FIELD_VELOCITY (GP_FIELD_VX | GP_FIELD_VY)
-#define GP_FIELD_ALL ((1u << 15) - 1u)
+#define GP_FIELD_ALL ((1u << 16) - 1u)
 
 typedef struct gp_particles {
     uint32_t struct_size;   /* set by the caller */
@@ -428,6 +443,8 @@ typedef struct gp_particles {
     const double *viscosity;        /* Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6) */
     const double *number_density;   /* N = sum of w over the neighbours within interaction_radius ([1] 2.4); with
                                        GP_DENSITY_NUMBER the scheme's own, with the ghosts behind plates */
+    const double *fluidity;         /* 1/s, g: the plastic shear rate 2 |gamma| over tau / p; 0 without
+                                       gp_material.nonlocal_amplitude */
 } gp_particles;
 
 /* Read-only views of the asked fields (GP_FIELD_... or-ed), in the library's own order, which changes from step to

@@ -39,6 +39,8 @@ void write_scene(CheckpointWriter &file, const Scene &scene) {
         materials.mu_s.push_back(m.mu_s);
         materials.mu_2.push_back(m.mu_2);
         materials.i0.push_back(m.i0);
+        materials.nonlocal_amplitude.push_back(m.nonlocal_amplitude);
+        materials.fluidity_time.push_back(m.fluidity_time);
         materials.k0.push_back(m.k0);
     }
     exchange_materials(file, materials);
@@ -75,6 +77,7 @@ void write_scene(CheckpointWriter &file, const Scene &scene) {
             plates.point_y.push_back(point.y());
         }
         plates.friction.push_back(p.friction);
+        plates.fluidity.push_back(p.fluidity);
         plates.wall_mu.push_back(p.wall_mu);
         plates.pivot_x.push_back(p.pivot.x());
         plates.pivot_y.push_back(p.pivot.y());
@@ -198,7 +201,8 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
     MaterialTable t;
     exchange_materials(file, t);
     const std::size_t n = t.grain_density.size();
-    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0, &t.k0})
+    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0, &t.nonlocal_amplitude,
+                              &t.fluidity_time, &t.k0})
         check.same_size("materials", *array, n);
     check.require(n > 0, "no material 0");
     for (std::size_t k = 1; k < n; ++k) { // the first one is there
@@ -209,6 +213,8 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
         m.mu_s = t.mu_s[k];
         m.mu_2 = t.mu_2[k];
         m.i0 = t.i0[k];
+        m.nonlocal_amplitude = t.nonlocal_amplitude[k];
+        m.fluidity_time = t.fluidity_time[k];
         m.k0 = t.k0[k];
         sim.add_material(m);
     }
@@ -263,6 +269,7 @@ void read_plates(CheckpointReader &file, const Checker &check, Sim &sim) {
         check.same_size("plates", *array, n);
     for (const auto *array : {&t.n_points, &t.n_knots, &t.n_knot_angles})
         check.same_size("plates", *array, n);
+    check.same_size("plates", t.fluidity, n);
     check.same_size("points", t.point_y, points);
     check.same_size("knots", t.knot_x, knots);
     check.same_size("knots", t.knot_y, knots);
@@ -290,6 +297,7 @@ void read_plates(CheckpointReader &file, const Checker &check, Sim &sim) {
             p.point_y = t.point_y.data() + point;
         }
         p.friction = t.friction[k];
+        p.fluidity = t.fluidity[k];
         p.wall_mu = t.wall_mu[k];
         p.pivot_x = t.pivot_x[k];
         p.pivot_y = t.pivot_y[k];
@@ -413,6 +421,8 @@ void read_particles(CheckpointReader &file, const Checker &check, const Scene &s
     }
     check.same_size("syy", p.syy, trace ? all : 0);
     check.all_finite("syy", p.syy);
+    check.same_size("fluidity", p.fluidity, p.fluid_pull.empty() ? 0 : all);
+    check.all_finite("fluidity", p.fluidity);
     for (auto *field : {&p.lxx, &p.lxy, &p.lyx, &p.lyy})
         check.same_size("velocity gradient", *field, all);
 }

@@ -12,7 +12,8 @@
 namespace gp::io {
 
 struct MaterialTable {
-    std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, k0;
+    std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, nonlocal_amplitude,
+        fluidity_time, k0;
 };
 
 template <class File, class Table> void exchange_materials(File &file, Table &t) {
@@ -23,6 +24,8 @@ template <class File, class Table> void exchange_materials(File &file, Table &t)
     file.array("mu_s", t.mu_s);
     file.array("mu_2", t.mu_2);
     file.array("i0", t.i0);
+    file.array("nonlocal_amplitude", t.nonlocal_amplitude);
+    file.array("fluidity_time", t.fluidity_time);
     file.array("k0", t.k0);
 }
 
@@ -58,7 +61,7 @@ struct PlateTable {
     std::vector<double> point_x, point_y, knot_t, knot_x, knot_y, knot_angle;
     std::vector<double> wall_mu, pivot_x, pivot_y, vx, vy, omega, surface_velocity, start_x, start_y, start_angle,
         normal_pressure, mass_per_length;
-    std::vector<int32_t> friction;
+    std::vector<int32_t> friction, fluidity;
 };
 
 template <class File, class Table> void exchange_plates(File &file, Table &t) {
@@ -67,6 +70,7 @@ template <class File, class Table> void exchange_plates(File &file, Table &t) {
     file.array("point_x", t.point_x);
     file.array("point_y", t.point_y);
     file.array("friction", t.friction);
+    file.array("fluidity", t.fluidity);
     file.array("wall_mu", t.wall_mu);
     file.array("pivot_x", t.pivot_x);
     file.array("pivot_y", t.pivot_y);
@@ -195,6 +199,7 @@ template <class File, class P, class Listed> void exchange_particles(File &file,
     file.array("sxx", p.sxx);
     file.array("sxy", p.sxy);
     file.array("syy", p.syy);
+    file.array("fluidity", p.fluidity);
     file.array("lxx", p.lxx);
     file.array("lxy", p.lxy);
     file.array("lyx", p.lyx);

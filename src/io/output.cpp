@@ -64,6 +64,7 @@ constexpr FileField file_fields[] = {
     {"inertial_number", GP_FIELD_INERTIAL_NUMBER, false, false, nullptr},
     {"viscosity", GP_FIELD_VISCOSITY, false, false, "Pa s"},
     {"number_density", GP_FIELD_NUMBER_DENSITY, false, false, nullptr},
+    {"fluidity", GP_FIELD_FLUIDITY, false, false, "s-1"},
 };
 
 FrameHeader header_of(const World &world) {

@@ -46,6 +46,8 @@ void add_material(std::string &text, const gp_material &m) {
     object.value("mu_s", m.mu_s);
     object.value("mu_2", m.mu_2);
     object.value("i0", m.i0);
+    object.value("nonlocal_amplitude", m.nonlocal_amplitude);
+    object.value("fluidity_time", m.fluidity_time);
     object.value("k0", m.k0);
     object.end();
 }
@@ -68,6 +70,7 @@ void add_plate(std::string &text, const PlateSpec &p) {
     }
     object.value("friction", p.friction);
     object.value("wall_mu", p.wall_mu);
+    object.value("fluidity", p.fluidity);
     object.value("vx", p.motion.velocity.x());
     object.value("vy", p.motion.velocity.y());
     object.value("pivot_x", p.pivot.x());

@@ -7,6 +7,12 @@
 
 namespace gp::stages {
 
+// Of the granular fluidity (fluidity_exchange.hpp); empty without.
+struct FluidityView {
+    const double *seen = nullptr, *bears = nullptr; // 1/s, 0 without pressure; 1 under pressure, else 0
+    double *pull = nullptr, *pace = nullptr;
+};
+
 struct ExchangeView {
     const double *density, *excess;    // excess over the material's own density
     const double *flowing, *bears;     // 1 or 0: at yield or stress-free; under pressure
@@ -16,6 +22,7 @@ struct ExchangeView {
     double largest_pace;                 // sum of w
     bool one_density;
     double *change;
+    FluidityView fluidity = {};
 };
 
 // Fills what neighbours are read of.
@@ -74,7 +81,7 @@ template <bool OneDensity> struct Exchange {
         // the pace, that of distance 0, does not count.
         const double others = pace[lane] - 1;
         const double exchanged = others > v.largest_pace ? v.largest_pace / others * sum[lane] : sum[lane];
-        v.change[i] = flowing[i] > 0 ? v.rate * exchanged : 0.0;
+        v.change[i] = v.rate * flowing[i] * exchanged;
     }
 };
 

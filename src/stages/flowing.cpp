@@ -1,18 +1,48 @@
 // Which particles flow: at yield, or without stress. What ties their densities to each other and to their spacing acts on
 // these alone, so that it does nothing in material at rest.
+//
+// With the granular fluidity there is no yield surface: how much it flows goes by the rate at which it yields. It flows with
+// all its weight where it shears as fast as the local law's flows do, and the weight falls off with the root of the rate (a
+// pair's is the product of both), so that at rest nothing is tied.
+#include <cmath>
+
 #include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
 
-void flowing(World &world) {
+namespace {
+
+constexpr double half_rate = 1e-3; // c0 / dl, at which the weight of a pair is half
+
+double weight_of_flow(const World &world, int64_t i, double stress) {
+    const Particles &p = world.particles;
+    if (p.pressure[i] <= 0)
+        return 1;
+    const double rate = p.fluidity[i] * stress / p.pressure[i];
+    return std::sqrt(rate / (rate + half_rate * world.constants.sound_speed / world.constants.spacing));
+}
+
+template <bool Fluid> void find_flowing(World &world) {
     Particles &p = world.particles;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const double stress = equivalent_stress({p.sxx[i], p.sxy[i]});
-            p.flowing[i] = world.map_of(i).at_yield(stress, p.pressure[i]) ? 1.0 : 0.0;
+            if (Fluid && world.is_fluid(i))
+                p.flowing[i] = weight_of_flow(world, i, stress);
+            else
+                p.flowing[i] = world.map_of(i).at_yield(stress, p.pressure[i]) ? 1.0 : 0.0;
         }
     });
+}
+
+} // namespace
+
+void flowing(World &world) {
+    if (world.constants.fluid)
+        find_flowing<true>(world);
+    else
+        find_flowing<false>(world);
 }
 
 } // namespace gp::stages

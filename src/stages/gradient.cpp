@@ -3,7 +3,7 @@
 #include "lanes.hpp"
 #include "operators.hpp"
 #include "parallel.hpp"
-#include "stages/density_exchange.hpp"
+#include "stages/fluidity_exchange.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -133,7 +133,7 @@ template <class Exchange> GP_INLINE void gradient_of_clusters(const View &v, int
         if (flows > 0)
             cluster_gradient<true, Exchange>(v, c);
         else
-            cluster_gradient<false, NoExchange>(v, c);
+            cluster_gradient<false, typename Idle<Exchange>::Sums>(v, c);
     }
 }
 
@@ -147,6 +147,26 @@ GP_MULTIVERSION void exchanging_clusters(const View &v, int64_t begin, int64_t e
 
 GP_MULTIVERSION void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<Exchange<false>>(v, begin, end);
+}
+
+GP_MULTIVERSION void fluid_clusters(const View &v, int64_t begin, int64_t end) {
+    gradient_of_clusters<AndFluidity<NoExchange>>(v, begin, end);
+}
+
+GP_MULTIVERSION void fluid_exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+    gradient_of_clusters<AndFluidity<Exchange<true>>>(v, begin, end);
+}
+
+GP_MULTIVERSION void fluid_exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
+    gradient_of_clusters<AndFluidity<Exchange<false>>>(v, begin, end);
+}
+
+using ClusterLoop = void (*)(const View &, int64_t, int64_t);
+
+ClusterLoop exchanging_loop(bool one_density, bool fluid) {
+    if (fluid)
+        return one_density ? fluid_exchanging_clusters : fluid_exchanging_clusters_of_densities;
+    return one_density ? exchanging_clusters : exchanging_clusters_of_densities;
 }
 
 View view_of(World &world, const ExchangeView &exchange) {
@@ -183,14 +203,20 @@ View view_of(World &world, const ExchangeView &exchange) {
 } // namespace
 
 void gradient(World &world) {
-    const View view = view_of(world, {});
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { plain_clusters(view, begin, end); });
+    ExchangeView exchange{};
+    if (world.constants.fluid)
+        exchange.fluidity = prepare_fluidity(world);
+    const View view = view_of(world, exchange);
+    const ClusterLoop clusters = world.constants.fluid ? fluid_clusters : plain_clusters;
+    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
 }
 
 void gradient_and_exchange(World &world) {
-    const ExchangeView exchange = prepare_exchange(world);
+    ExchangeView exchange = prepare_exchange(world);
+    if (world.constants.fluid)
+        exchange.fluidity = prepare_fluidity(world);
     const View view = view_of(world, exchange);
-    const auto clusters = exchange.one_density ? exchanging_clusters : exchanging_clusters_of_densities;
+    const ClusterLoop clusters = exchanging_loop(exchange.one_density, world.constants.fluid);
     for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
 }
 

@@ -47,6 +47,8 @@ void gradient_and_exchange(World &world);
 void density_diffusion(World &world);
 // Density of what flows where its particles have come closer than it says.
 void density_of_spacing(World &world);
+// The pair sums of the granular fluidity.
+void fluidity(World &world);
 // Elastic trial and return map; leaves sigma K^-1.
 void stress(World &world);
 // Ghost stresses extrapolated from the particles.

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "lanes.hpp"
+#include "material/fluidity.hpp"
 #include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -13,9 +14,9 @@ namespace {
 // The materials of four particles.
 struct MaterialLanes {
     ReturnMapOf<Lanes> map;
-    Lanes density;
+    Lanes density, fluidity_time, is_fluid; // is_fluid: 1 or 0
 
-    GP_INLINE void set(const Constants &c, const int32_t *column, const LanePlaces &places) {
+    template <bool Fluid> GP_INLINE void set(const Constants &c, const int32_t *column, const LanePlaces &places) {
         for (int l = 0; l < lane_count; ++l) {
             const MaterialConstants &m = c.materials[c.body_material[column[places.at[l]]]];
             map.mu_s[l] = m.map.mu_s;
@@ -23,6 +24,11 @@ struct MaterialLanes {
             map.rate_factor[l] = m.map.rate_factor;
             map.shear_modulus[l] = m.map.shear_modulus;
             density[l] = m.density;
+            if (Fluid) {
+                const FluidityConstants &f = c.fluidities[c.body_material[column[places.at[l]]]];
+                fluidity_time[l] = f.time;
+                is_fluid[l] = f.cooperativity2 > 0 ? 1.0 : 0.0;
+            }
         }
     }
 };
@@ -31,22 +37,50 @@ struct StressSums {
     double plastic, internal, damped; // W/m3 or J/m3, of a block
 };
 
-template <bool Penalty>
+// The factor by which the trial deviator shrinks by the granular fluidity, which it brings to the end of the step.
+GP_INLINE Lanes shrink_by_fluidity(const Particles &p, const MaterialLanes &material, const LanePlaces &places,
+                                   double dt, const Lanes &trial, const Lanes &pressure, const Lanes &rate,
+                                   Lanes &fluidity) {
+    const Lanes one = Lanes{} + 1.0, inertia = material.fluidity_time / dt;
+    const Lanes borne = choose(pressure > 0.0, pressure, one);
+    const Lanes under_pressure =
+        Fluidity::after(material.map, trial, borne, dt, inertia + places.load(p.fluid_pace.data()),
+                        inertia * places.load(p.fluidity.data()) + places.load(p.fluid_pull.data()));
+    fluidity = where(material.is_fluid > 0.0,
+                     choose(pressure > 0.0, under_pressure, Fluidity::without_pressure(material.map, rate)));
+    return where(pressure > 0.0, one / (one + material.map.shear_modulus * dt / borne * fluidity));
+}
+
+// With the fluidity there is no inside of a yield surface in which the zero-energy penalty may be stiffer, but flow that is the
+// more viscous the slower it is, tau over its rate = p / g. A tenth of that withstands what the gradient does not see, if it is
+// more than the penalty in fast flow (plain: its viscosity, Pa s), up to the penalty of material at rest, `most` times as much.
+//
+// With the plain penalty a layer dragged slowly by a plate bore such modes: velocities that zigzag from row to row by a tenth,
+// and 4 % too much stress (horizon 4, spacing of half a grain).
+GP_INLINE Lanes stiffness_of_creep(const Lanes &pressure, const Lanes &fluidity, const Lanes &plain, double most) {
+    const Lanes one = Lanes{} + 1.0, share = 0.1 * pressure / plain; // over g
+    const Lanes held = choose(share < most * fluidity, share / choose(fluidity > 0.0, fluidity, one), Lanes{} + most);
+    return choose(held > 1.0, held, one);
+}
+
+template <bool Penalty, bool Fluid>
 GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     Particles &p = world.particles;
     const double dt = world.clock.dt;
     const double half_penalty = 0.5 * world.constants.penalty, stiffer = world.constants.elastic_penalty;
     const double kinematic_viscosity =
         world.scene->config().bulk_viscosity * world.constants.sound_speed * world.constants.spacing;
+    const double plain_viscosity = world.scene->config().zero_energy_penalty * world.constants.sound_speed *
+                                   world.constants.spacing; // of the penalty, m2/s
     const bool near_plates = world.walls.in_reach();
     Lanes plastic{}, internal{}, damped{};
     MaterialLanes material{};
     if (one_material)
-        material.set(world.constants, p.column.data(), LanePlaces(begin, end));
+        material.set<Fluid>(world.constants, p.column.data(), LanePlaces(begin, end));
     for (int64_t first = begin; first < end; first += lane_count) {
         const LanePlaces places(first, end);
         if (!one_material)
-            material.set(world.constants, p.column.data(), places);
+            material.set<Fluid>(world.constants, p.column.data(), places);
         const ReturnMapOf<Lanes> &map = material.map;
         const Lanes lxx = places.load(p.lxx.data()), lxy = places.load(p.lxy.data());
         const Lanes lyx = places.load(p.lyx.data()), lyy = places.load(p.lyy.data());
@@ -57,7 +91,16 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         const DeviatorOf<Lanes> before = rotate(old, spin, dt);
         const Lanes stiff = 2.0 * map.shear_modulus;
         const DeviatorOf<Lanes> trial{before.xx + stiff * dt * dxx, before.xy + stiff * dt * dxy};
-        const Lanes shrink = map.shrink(equivalent_stress(trial), pressure, dt);
+        const int64_t last = first + lane_count < end ? first + lane_count : end;
+        Lanes shrink = map.shrink(equivalent_stress(trial), pressure, dt);
+        const auto is_fluid = material.is_fluid > 0.0;
+        Lanes fluidity{};
+        if (Fluid) {
+            const Lanes by_fluidity = shrink_by_fluidity(p, material, places, dt, equivalent_stress(trial), pressure,
+                                                         2.0 * root(dxx * dxx + dxy * dxy), fluidity);
+            shrink = choose(is_fluid, by_fluidity, shrink);
+            places.store(p.fluidity.data(), last, fluidity);
+        }
         const DeviatorOf<Lanes> after{shrink * trial.xx, shrink * trial.xy};
 
         // Mean stress of the step times plastic strain (s_trial - s) / 2G; s:e = 2 (s_xx e_xx + s_xy e_xy).
@@ -73,9 +116,16 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         const Lanes viscosity = kinematic_viscosity * material.density;
         const Lanes viscous = -viscosity * divergence;
         const Lanes bulk = where(pressure > 0.0, choose(viscous > -pressure, viscous, -pressure));
-        const DeviatorOf<Lanes> drag{2.0 * viscosity * dxx, 2.0 * viscosity * dxy};
+        DeviatorOf<Lanes> drag{2.0 * viscosity * dxx, 2.0 * viscosity * dxy};
+        if (Fluid) { // there is no yield surface: what is left of the rate is elastic
+            const Lanes plastic_share = 2.0 * viscosity * (1.0 - shrink) / (stiff * dt);
+            drag.xx -= where(is_fluid, plastic_share * trial.xx);
+            drag.xy -= where(is_fluid, plastic_share * trial.xy);
+        }
         const DeviatorOf<Lanes> total{after.xx + drag.xx, after.xy + drag.xy};
-        const auto elastic = (shrink == 1.0) & (equivalent_stress(total) <= map.mu_s * pressure);
+        auto elastic = (shrink == 1.0) & (equivalent_stress(total) <= map.mu_s * pressure);
+        if (Fluid)
+            elastic = elastic | (is_fluid & (equivalent_stress(total) <= map.mu_2 * pressure));
         const DeviatorOf<Lanes> s{choose(elastic, total.xx, after.xx), choose(elastic, total.xy, after.xy)};
         damped += own * (where(elastic, 2.0 * (drag.xx * dxx + drag.xy * dxy)) - bulk * divergence);
         internal += own * (2.0 * (s.xx * dxx + s.xy * dxy) - (pressure + bulk) * divergence);
@@ -86,9 +136,13 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
         Lanes cxy = axx * gxy + axy * gyy;
         Lanes cyx = axy * gxx + ayy * gxy;
         Lanes cyy = axy * gxy + ayy * gyy;
-        const int64_t last = first + lane_count < end ? first + lane_count : end;
         if (Penalty) {
-            const Lanes stressed = where(pressure > 0.0, choose(elastic, Lanes{} + stiffer, Lanes{} + 1.0));
+            Lanes share_of_penalty = choose(elastic, Lanes{} + stiffer, Lanes{} + 1.0);
+            if (Fluid)
+                share_of_penalty = choose(
+                    is_fluid, stiffness_of_creep(pressure, fluidity, material.density * plain_viscosity, stiffer),
+                    share_of_penalty);
+            const Lanes stressed = where(pressure > 0.0, share_of_penalty);
             const Lanes share = half_penalty * stressed;
             Lanes pxx = lxx, pxy = lxy, pyx = lyx, pyy = lyy;
             if (near_plates && world.walls.contact_start[first] < world.walls.contact_start[last])
@@ -116,18 +170,28 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
 }
 
 GP_MULTIVERSION void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<false>(world, one_material, begin, end, sums);
+    stress_rows<false, false>(world, one_material, begin, end, sums);
 }
 
 GP_MULTIVERSION void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<true>(world, one_material, begin, end, sums);
+    stress_rows<true, false>(world, one_material, begin, end, sums);
+}
+
+GP_MULTIVERSION void fluid_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+    stress_rows<false, true>(world, one_material, begin, end, sums);
+}
+
+GP_MULTIVERSION void fluid_penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+    stress_rows<true, true>(world, one_material, begin, end, sums);
 }
 
 } // namespace
 
 void stress(World &world) {
     Particles &p = world.particles;
-    const auto rows = world.constants.penalty > 0 ? penalty_rows : plain_rows;
+    const bool penalty = world.constants.penalty > 0;
+    const auto rows =
+        world.constants.fluid ? (penalty ? fluid_penalty_rows : fluid_rows) : (penalty ? penalty_rows : plain_rows);
     const std::vector<int32_t> &materials = world.constants.body_material;
     const bool one_material =
         std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });
@@ -142,8 +206,11 @@ void stress(World &world) {
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.constants.penalty > 0)
         world.images.copy(p.stressed);
-    if (world.walls.in_reach()) // ghosts extrapolate from these
+    if (world.walls.in_reach()) { // ghosts extrapolate from these
         world.images.copy({&p.pressure, &p.density, &p.sxx, &p.sxy});
+        if (world.constants.fluid)
+            world.images.copy(p.fluidity);
+    }
 }
 
 } // namespace gp::stages

@@ -97,19 +97,21 @@ GP_MULTIVERSION void add_stresses(const View &view, const GhostRow &row, WallStr
 // 1.5e-4 J/m in all, is 5e-5 with 1.
 constexpr double steepest_tangential = 0.5, normal_ratio = 0.25;
 
-bool at_yield(const World &world, int32_t i) {
+template <bool Fluid> bool at_yield(const World &world, int32_t i) {
     const Particles &p = world.particles;
+    if (Fluid && world.is_fluid(i)) // it yields at any stress
+        return p.pressure[i] > 0 && p.fluidity[i] > 0;
     return p.pressure[i] > 0 && world.map_of(i).at_yield(equivalent_stress({p.sxx[i], p.sxy[i]}), p.pressure[i]);
 }
 
 // Is all that the ghost sees at yield?
-bool flows_before(const World &world, const GhostRow &row) {
+template <bool Fluid> bool flows_before(const World &world, const GhostRow &row) {
     const Particles &p = world.particles;
     const double horizon2 = world.constants.horizon * world.constants.horizon;
     for (int64_t e = 0; e < row.count; ++e) {
         const int32_t i = row.index[e];
         const double dx = p.x[i] - row.x, dy = p.y[i] - row.y;
-        if (dx * dx + dy * dy < horizon2 && !at_yield(world, i)) // the lists reach further than the horizon
+        if (dx * dx + dy * dy < horizon2 && !at_yield<Fluid>(world, i)) // the lists reach further than the horizon
             return false;
     }
     return true;
@@ -118,7 +120,7 @@ bool flows_before(const World &world, const GhostRow &row) {
 // Sheared: ghosts of a rough plate carry the shear on through its surface. Else they move with the plate along it: the
 // implicit scheme takes only the change of volume from them, and has ghosts of its own for the shear. (Ghosts turned round
 // drive its collapses with 1.6 % of the initial energy at L/dl = 32, these with .6 %.)
-template <bool Sheared> void extrapolate_velocity(World &world) {
+template <bool Sheared, bool Fluid> void extrapolate_velocity(World &world) {
     Walls &w = world.walls;
     const View view(world);
     for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
@@ -130,7 +132,7 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
             VelocitySums sums;
             add_velocities(view, row, sums);
             const bool rough = w.facets[facet].spec->friction == GP_WALL_NO_SLIP;
-            const bool flows = rough && flows_before(world, row);
+            const bool flows = rough && flows_before<Fluid>(world, row);
             if (sums.w <= 0) { // in the skin only
                 w.ghost_vx[k] = own.x();
                 w.ghost_vy[k] = own.y();
@@ -155,11 +157,14 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
 } // namespace
 
 void wall_velocity(World &world) {
-    extrapolate_velocity<true>(world);
+    if (world.constants.fluid)
+        extrapolate_velocity<true, true>(world);
+    else
+        extrapolate_velocity<true, false>(world);
 }
 
 void wall_volume_velocity(World &world) {
-    extrapolate_velocity<false>(world);
+    extrapolate_velocity<false, false>(world);
 }
 
 namespace {

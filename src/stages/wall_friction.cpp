@@ -13,20 +13,46 @@ namespace gp::stages {
 
 namespace {
 
+// Where the particle was when the step began.
+GP_INLINE Vector place_before(const World &world, const Contact &contact) {
+    const Particles &p = world.particles;
+    const int64_t i = contact.particle;
+    const double dt = world.clock.dt;
+    return world.walls.nearest_image(world.walls.facets[contact.facet].segment,
+                                     {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]});
+}
+
+double rate_per_slip_of(const World &world, const Contact &contact) {
+    return rate_per_slip(world.walls.facets[contact.facet].segment, place_before(world, contact),
+                         world.constants.spacing);
+}
+
 // Between surface and particle the mean rate is slip over distance, y; of a curved profile that is the rate at y/2. The gradient
 // that the particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and
 // the rate at the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. direction: 1 or -1, of the slip along the
 // tangent.
-SurfaceRate surface_rate(const World &world, const Contact &contact, double direction) {
-    const Particles &p = world.particles;
+GP_INLINE SurfaceRate surface_rate(const World &world, const Contact &contact, double direction) {
     const Constants &c = world.constants;
     const int64_t i = contact.particle;
     const Segment &s = world.walls.facets[contact.facet].segment;
-    const double dt = world.clock.dt;
-    const Vector at = world.walls.nearest_image(s, {p.x[i] - dt * p.vx[i], p.y[i] - dt * p.vy[i]}); // where it was
+    const Vector at = place_before(world, contact);
     const double share = c.one_sided.share(s.distance(at) / c.horizon);
     const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
     return {(1 + share) * rate_per_slip(s, at, c.spacing), -share * inside};
+}
+
+// The part of a particle's shear rate along the plate that loads its stress; the rest is plastic, by the granular fluidity. It is
+// taken to be the same between particle and plate, where friction is of the plastic part. With friction of the whole rate the
+// first rows were tied to the plate whenever the fluidity was low, and a plate dragged at .3 mm/s stuck and slipped without end,
+// 39 to 56 Pa (the law has 47.4, the layer in one dimension comes to rest at that within a second).
+double elastic_rate(const World &world, const Contact &contact) {
+    const Particles &p = world.particles;
+    const int64_t i = contact.particle;
+    const Segment &s = world.walls.facets[contact.facet].segment;
+    const Vector &n = s.normal, &t = s.tangent;
+    const double xx = n.x() * t.x() - n.y() * t.y(), xy = n.x() * t.y() + n.y() * t.x();
+    const double rate = (p.lxx[i] - p.lyy[i]) * xx + (p.lxy[i] + p.lyx[i]) * xy;
+    return rate - p.fluidity[i] * (p.sxx[i] * xx + p.sxy[i] * xy) / p.pressure[i];
 }
 
 // Shear over normal traction that a particle's material bears on planes along the plate, at the yield mu p of the rate at the
@@ -46,9 +72,7 @@ double rough_ratio(const World &world, const Contact &contact, double mu) {
     return shear2 > 0 ? mu * std::sqrt(shear2) / normal : 0.0;
 }
 
-} // namespace
-
-void wall_friction(World &world) {
+template <bool Fluid> void brake_contacts(World &world) {
     const Particles &p = world.particles;
     const bool sticks =
         world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
@@ -73,10 +97,18 @@ void wall_friction(World &world) {
         const auto ratio_of = [&](double mu) {
             return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(*facet.spec, mu);
         };
+        const bool fluid = Fluid && world.is_fluid(i) && p.pressure[i] > 0;
+        // Between plate and particle: of the fluidity, and of the plastic rate.
+        const double between = fluid ? (facet.spec->fluidity == GP_FLUIDITY_ZERO ? 0.5 : 1.0) * p.fluidity[i] : 0.0;
+        const SurfaceRate mean_rate{fluid ? rate_per_slip_of(world, contact) : 0.0,
+                                    fluid ? -direction * elastic_rate(world, contact) : 0.0};
         // The share of mu that acts along the plate depends on mu itself, weakly.
         double mu = law.mu_s;
-        for (int pass = 0; pass < 2; ++pass)
-            mu = friction_left(law, rate, std::abs(slip), once * ratio_of(mu) / std::max(mu, 1e-300), pressure);
+        for (int pass = 0; pass < 2; ++pass) {
+            const double per_mu = once * ratio_of(mu) / std::max(mu, 1e-300);
+            mu = fluid ? friction_left(law, between, mean_rate, std::abs(slip), per_mu)
+                       : friction_left(law, rate, std::abs(slip), per_mu, pressure);
+        }
         const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
         if (stop <= 0)
             continue;
@@ -86,6 +118,15 @@ void wall_friction(World &world) {
         if (rough)
             world.ledger.walls += world.ledger.dissipated - before;
     }
+}
+
+} // namespace
+
+void wall_friction(World &world) {
+    if (world.constants.fluid)
+        brake_contacts<true>(world);
+    else
+        brake_contacts<false>(world);
 }
 
 } // namespace gp::stages

@@ -35,6 +35,15 @@ inline double friction_left(const ReturnMap &law, const SurfaceRate &rate, doubl
     return law.friction(b > 0 ? -2 * c / (b + discriminant) : 0.5 * (discriminant - b), pressure);
 }
 
+// The same with the granular fluidity: of uniform shear stress between plate and particle it is the mean rate over the mean
+// fluidity there, up to mu_2; where that is 0, all slip is held. (By the rate at the surface over the fluidity of each particle,
+// which is less further in, a slow plate dragged with 4 % too much; with the fluidity of the first row for all, it slipped.)
+inline double friction_left(const ReturnMap &law, double fluidity, const SurfaceRate &rate, double slip,
+                            double per_mu) {
+    const double mu = (rate.slope * slip + rate.inside) / (fluidity + rate.slope * per_mu);
+    return std::clamp(mu, 0.0, law.mu_2);
+}
+
 // A rough plate is as rough as the material; another has its own friction, where the material can bear it.
 inline double wall_friction_bound(const PlateSpec &plate, double material) {
     return plate.friction == GP_WALL_NO_SLIP ? material : std::min(plate.wall_mu, material);

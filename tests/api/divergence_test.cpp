@@ -61,7 +61,7 @@ std::vector<uint64_t> views(const Sim &sim) {
     const gp_particles p = sim.view(GP_FIELD_ALL & ~GP_FIELD_NUMBER_DENSITY);
     std::vector<uint64_t> bits;
     for (const double *field : {p.x, p.y, p.vx, p.vy, p.pressure, p.density, p.sxx, p.sxy, p.syy, p.shear_rate,
-                                p.inertial_number, p.viscosity})
+                                p.inertial_number, p.viscosity, p.fluidity})
         for (int64_t i = 0; i < p.count; ++i)
             bits.push_back(bits_of(field[i]));
     bits.insert(bits.end(), p.id, p.id + p.count);
@@ -72,7 +72,7 @@ std::vector<uint64_t> views(const Sim &sim) {
 // The state and the loads, from the one list of them.
 std::vector<uint64_t> scalars(const Sim &sim, int32_t plates) {
     std::vector<uint64_t> bits = snapshot(sim, plates);
-    bits.erase(bits.begin(), bits.begin() + 15 * sim.count());
+    bits.erase(bits.begin(), bits.begin() + 16 * sim.count());
     // The last of the state is volume_drift, which counts ghosts that the lists see: those of a step undone are new ones.
     bits.erase(bits.end() - numbers_of_load * plates - 1);
     const gp_state s = sim.state();

@@ -339,7 +339,8 @@ TEST_F(Output, HoldsTheAskedFieldsInTheOrderOfId) {
                    {"shear_rate", GP_FIELD_SHEAR_RATE},
                    {"inertial_number", GP_FIELD_INERTIAL_NUMBER},
                    {"viscosity", GP_FIELD_VISCOSITY},
-                   {"number_density", GP_FIELD_NUMBER_DENSITY}};
+                   {"number_density", GP_FIELD_NUMBER_DENSITY},
+                   {"fluidity", GP_FIELD_FLUIDITY}};
     for (const auto &scalar : scalars)
         EXPECT_EQ(last_frame(path, scalar.name), sim.field(scalar.field)) << scalar.name;
     const std::vector<double> position = last_frame(path, "position"), velocity = last_frame(path, "velocity");

@@ -22,7 +22,8 @@ std::vector<const double *> numbers_of(const gp_particles &p) {
             p.shear_rate,
             p.inertial_number,
             p.viscosity,
-            p.number_density};
+            p.number_density,
+            p.fluidity};
 }
 
 void start(Sim &sim, int steps = 40) {

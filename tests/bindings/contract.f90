@@ -145,6 +145,25 @@ contains
         call expect(gp_status_string(GP_E_STATE) /= gp_status_string(GP_OK), "text of a status")
     end subroutine
 
+    subroutine check_fluidity()
+        type(gp_simulation) :: sim
+        type(gp_material) :: beads
+        integer :: id, status
+        character(300) :: message
+        beads = gp_material(grain_diameter=0.02_gp_real, nonlocal_amplitude=0.48_gp_real)
+        call expect(abs(beads%fluidity_time - 1e-4_gp_real) <= 0, "gp_material() has the library's fluidity_time")
+        call sim%create(gp_config(spacing=0.01_gp_real, sound_speed=10.0_gp_real, threads=1))
+        call sim%add_material(gp_material(nonlocal_amplitude=11.0_gp_real), id, status, message)
+        call expect_error(status, GP_E_ARGUMENT, message, "gp_material.nonlocal_amplitude = 11")
+        call sim%add_plate(gp_plate(x0=1.0_gp_real, fluidity=2), status=status, message=message)
+        call expect_error(status, GP_E_ARGUMENT, message, "gp_plate.fluidity = 2")
+        call sim%add_material(beads, id)
+        call sim%add_column(gp_column(width=0.08_gp_real, height=0.06_gp_real, material=id))
+        call sim%add_plate(gp_plate(x0=0.5_gp_real, x1=-0.5_gp_real, fluidity=GP_FLUIDITY_ZERO))
+        call sim%step(200)
+        call expect(maxval(sim%copy(GP_FIELD_FLUIDITY)) > 0, "what slumps has a fluidity")
+    end subroutine
+
     subroutine check_reading()
         type(gp_simulation) :: sim
         type(gp_particles) :: view
@@ -168,7 +187,9 @@ contains
         call sim%step(1)
         call expect(.not. sim%is_current(view), "a step ends a view")
         view = sim%particles()
-        call expect(associated(view%number_density), "all fields, where none is named")
+        call expect(associated(view%number_density) .and. associated(view%fluidity), "all fields, where none is named")
+        call expect(all(abs(view%fluidity) <= 0), "no fluidity where no material has an amplitude")
+        call check_fluidity()
         state = sim%state()
         call expect(state%step == 3 .and. state%n_particles == 48, "the state is read")
         call sim%clock(time, dt, step)

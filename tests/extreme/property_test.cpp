@@ -155,6 +155,21 @@ DrawnPlate draw_plate(Dice &dice, double dl, double speed) {
     return drawn;
 }
 
+// Of a third of the scenes that can have one, materials with a granular fluidity, of any strength and pace. By dice of its own:
+// the scenes are otherwise what they are without.
+void draw_fluidity(uint64_t seed, Drawn &s) {
+    Dice dice(seed + 0x9E3779B97F4A7C15u);
+    if (s.config.preset != GP_PRESET_DEFAULT || s.config.stress != GP_STRESS_ELASTIC || !dice.chance(0.33))
+        return;
+    for (gp_material &m : s.materials)
+        if ((m.mu_s > 0 && m.mu_2 > m.mu_s && dice.chance(0.8)) || dice.chance(0.02)) { // else refused
+            m.nonlocal_amplitude = dice.log_between(1e-2, 10);
+            m.fluidity_time = dice.log_between(1e-7, 1);
+        }
+    for (DrawnPlate &drawn : s.plates)
+        drawn.plate.fluidity = dice.chance(0.5) ? GP_FLUIDITY_ZERO : GP_FLUIDITY_FREE;
+}
+
 // A quarter of the plates turn, run as a belt or are lines of several segments, some of which cross themselves.
 void draw_more(Dice &dice, double dl, double speed, DrawnPlate &drawn) {
     gp_plate &p = drawn.plate;
@@ -234,6 +249,7 @@ Drawn draw(uint64_t seed) {
         s.config.stress = GP_STRESS_IMPLICIT;
         s.config.delta = dice.log_between(1e-8, 1e-2);
     }
+    draw_fluidity(seed, s);
     return s;
 }
 
@@ -360,7 +376,9 @@ std::string description(uint64_t seed, const Drawn &s) {
          << s.config.bulk_viscosity << ", period " << s.config.periodic_x_max - s.config.periodic_x_min << ", channel "
          << s.config.channel_width << ", jitter " << s.config.jitter;
     for (const gp_material &m : s.materials)
-        text << "; material of " << m.grain_density * m.volume_fraction << " kg/m3";
+        text << "; material of " << m.grain_density * m.volume_fraction << " kg/m3, d " << m.grain_diameter << ", mu "
+             << m.mu_s << " to " << m.mu_2 << ", I0 " << m.i0 << ", amplitude " << m.nonlocal_amplitude << ", t0 "
+             << m.fluidity_time;
     for (const gp_column &c : s.columns)
         text << "; column (" << c.x_min / s.config.spacing << ", " << c.y_min / s.config.spacing << ") "
              << c.width / s.config.spacing << " x " << c.height / s.config.spacing << " dl, material " << c.material

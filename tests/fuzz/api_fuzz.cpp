@@ -61,7 +61,9 @@ const Item material_items[] = {D(gp_material, grain_density, 2500),
                                D(gp_material, mu_s, 0.38),
                                D(gp_material, mu_2, 0.64),
                                D(gp_material, i0, 0.3),
-                               D(gp_material, k0, 0.6)};
+                               D(gp_material, k0, 0.6),
+                               D(gp_material, nonlocal_amplitude, 0.48),
+                               D(gp_material, fluidity_time, 1e-3)};
 const Item column_items[] = {D(gp_column, x_min, 3 * dl), D(gp_column, y_min, dl),
                              D(gp_column, width, 6 * dl), D(gp_column, height, 5 * dl),
                              I(gp_column, material, 1),   D(gp_column, vx, 0.5),
@@ -80,7 +82,8 @@ const Item plate_items[] = {D(gp_plate, x0, 10 * dl),
                             D(gp_plate, pivot_x, 0.05),
                             D(gp_plate, pivot_y, 0.1),
                             D(gp_plate, omega, 2),
-                            D(gp_plate, surface_velocity, 0.3)};
+                            D(gp_plate, surface_velocity, 0.3),
+                            I(gp_plate, fluidity, 1)};
 const Item output_items[] = {D(gp_output, every_seconds, 1e-3), I(gp_output, fields, 0xff),
                              I(gp_output, compression, 1), I(gp_output, single_precision, 1), L(gp_output, append, 1)};
 
@@ -314,7 +317,7 @@ void read(Host &host, Bytes &in) {
     checked(gp_get_interface(host.sim, in.below(4) - 1, in.below(4) - 1, in.below(6), values, out));
     checked(gp_get_plate_load(host.sim, in.below(5) - 1, &load));
     checked(gp_get_plan(host.sim, in.below(71), entries, &n));
-    checked(gp_get_particles(host.sim, static_cast<uint32_t>(in.integer(0x7fff)), &particles));
+    checked(gp_get_particles(host.sim, static_cast<uint32_t>(in.integer(GP_FIELD_ALL)), &particles));
     checked(gp_copy_field(host.sim, 1u << in.below(18), out, std::min<int64_t>(300, in.integer(0))));
 }
 

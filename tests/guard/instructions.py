@@ -23,6 +23,7 @@ CASES = {
     "collapse": ["--resolution", "32", "--from", "0"],
     "collapse_horizon_2.5": ["--resolution", "32", "--from", "0", "--horizon", "2.5"],
     "collapse_without_diffusion": ["--resolution", "32", "--from", "0", "--diffusion", "0"],
+    "collapse_with_fluidity": ["--resolution", "32", "--from", "0", "--amplitude", "0.48"],
 }
 STEPS = (200, 300)
 

@@ -6,7 +6,7 @@ import sys
 
 LAYERS = [
     ["granperi/gp", "error", "check", "entry", "float_environment", "parallel"],
-    ["geometry", "kernel", "lanes", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/linearized"],
+    ["geometry", "kernel", "lanes", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/fluidity", "material/linearized"],
     ["scene", "scene_constants", "scene_defaults", "scene_falls", "scene_plates", "scene_stress"],
     ["particles"],
     ["viscous_system"],

@@ -7,6 +7,7 @@
 //              [--to-step STEP] [--to-time SECONDS] [--until-killed] [--expect-diverged]
 //
 // One option --load replaces the making of the scene; SCENE then only says when the host drives which plate.
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -50,6 +51,17 @@ void add_plate(gp_sim *sim, double x0, double y0, double x1, double y1, void (*s
     if (set)
         set(p);
     CHECK(gp_add_plate(sim, &p, nullptr));
+}
+
+// Grains of two spacings, which flow as their neighbours do.
+int32_t add_fluid(gp_sim *sim) {
+    gp_material m;
+    int32_t id;
+    CHECK(gp_material_init(&m, sizeof m));
+    m.grain_diameter = 2 * dl;
+    m.nonlocal_amplitude = 0.48;
+    CHECK(gp_add_material(sim, &m, &id));
+    return id;
 }
 
 int32_t add_column(gp_sim *sim, double x, double y, int columns, int rows, double vx = 0, double vy = 0,
@@ -135,14 +147,15 @@ gp_sim *make(const Options &o) {
         c.channel_width = 0.02;
         c.channel_friction = 0.3;
     }
-    if (scene == "periodic") {
+    if (scene == "periodic" || scene == "fluid_periodic") {
         c.periodic_x_max = width;
         c.gravity_x = 5;
     }
-    if (scene == "retry" || scene == "diverge" || scene == "diverge_periodic") { // far beyond the stable limit
-        c.time_step = scene == "retry" ? 2.5e-4 : scene == "diverge" ? 4e-4 : 4e-3;
+    const bool retry = scene == "retry" || scene == "fluid_retry";
+    if (retry || scene == "diverge" || scene == "diverge_periodic") { // far beyond the stable limit
+        c.time_step = retry ? 2.5e-4 : scene == "diverge" ? 4e-4 : 4e-3;
         c.allow_unstable_step = 1;
-        c.retry_halvings = scene == "retry" ? 6 : 0;
+        c.retry_halvings = retry ? 6 : 0;
     }
     if (scene == "diverge_periodic")
         c.periodic_x_max = width;
@@ -160,19 +173,20 @@ gp_sim *make(const Options &o) {
     if (o.unused_material)
         CHECK(gp_add_material(sim, &heavy, nullptr));
 
+    const int32_t main_material = scene.rfind("fluid", 0) == 0 ? add_fluid(sim) : 0;
     if (scene ==
         "turning") { // a drum about a heap, a vane that the host turns, a hilly belt, across whose ends it lies
         add_turning(sim, columns, rows);
-    } else if (scene == "periodic" || scene == "diverge_periodic") {
-        add_plate(sim, width, 0, 0, 0);
-        add_column(sim, 0, 0, columns, rows, 0.1);
+    } else if (scene == "periodic" || scene == "fluid_periodic" || scene == "diverge_periodic") {
+        add_plate(sim, width, 0, 0, 0, [](gp_plate &p) { p.fluidity = GP_FLUIDITY_ZERO; });
+        add_column(sim, 0, 0, columns, rows, 0.1, 0, main_material);
         add_plate(sim, 0, height, width, height, [](gp_plate &p) {
             p.normal_pressure = 300;
             p.vx = 0.2;
         });
     } else {
         add_plate(sim, 1, 0, -1, 0);
-        add_column(sim, 0, 0, columns, rows);
+        add_column(sim, 0, 0, columns, rows, 0, 0, main_material);
         if (scene == "loaded") {
             add_plate(sim, 0, 0, 0, height + 0.02);
             add_plate(sim, width, height + 0.02, width, 0);
@@ -253,6 +267,9 @@ uint64_t hash_of(gp_sim *sim, bool in_order_of_id, int64_t count) {
         std::vector<double> values(static_cast<std::size_t>(p.count));
         for (uint32_t bit = 1; bit & GP_FIELD_ALL; bit <<= 1) {
             CHECK(gp_copy_field(sim, bit, values.data(), p.count));
+            const auto is_zero = [](double value) { return value == 0; };
+            if (bit == GP_FIELD_FLUIDITY && std::all_of(values.begin(), values.end(), is_zero))
+                continue; // of no material here: the bits are those of versions without
             hash.add(values.data(), static_cast<std::size_t>(count) * sizeof(double));
         }
         return hash.value;
@@ -261,7 +278,7 @@ uint64_t hash_of(gp_sim *sim, bool in_order_of_id, int64_t count) {
     hash.add(p.id, n * sizeof *p.id);
     hash.add(p.column, n * sizeof *p.column);
     for (const double *field : {p.x, p.y, p.vx, p.vy, p.pressure, p.density, p.sxx, p.sxy, p.syy, p.shear_rate,
-                                p.inertial_number, p.viscosity, p.number_density})
+                                p.inertial_number, p.viscosity, p.number_density, p.fluidity})
         hash.add(field, n * sizeof *field);
     gp_state s = state_of(sim);
     s.wall_seconds = 0;

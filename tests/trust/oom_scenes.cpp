@@ -135,7 +135,7 @@ std::string bits_of(gp_sim *sim) {
     add(p.id, n * sizeof *p.id);
     add(p.column, n * sizeof *p.column);
     for (const double *field : {p.x, p.y, p.vx, p.vy, p.pressure, p.density, p.sxx, p.sxy, p.syy, p.shear_rate,
-                                p.inertial_number, p.viscosity, p.number_density})
+                                p.inertial_number, p.viscosity, p.number_density, p.fluidity})
         add(field, n * sizeof *field);
     const gp_state s = state_of(sim);
     add(&s, sizeof s);

@@ -29,9 +29,9 @@ except ImportError:
         os.execv(system, [system, *sys.argv])
 
 # What there is to go wrong: the schemes; plates that move by tables, by the host, under loads, that turn; periods, side walls,
-# retries.
+# retries; a material with a granular fluidity in these.
 SCENES = ["default", "implicit", "regularized", "paper", "paper_local", "periodic", "driven", "paper_driven", "loaded",
-          "channel", "retry", "turning"]
+          "channel", "retry", "turning", "fluid", "fluid_periodic", "fluid_retry"]
 DIVERGING = ["diverge", "diverge_periodic"]
 END = 90
 
@@ -103,7 +103,7 @@ def restart(bench, _):
             require(state(after[-1]) == state(whole[-1]), f"{scene}: saved in the callback of step {step}")
             restarts += 1
     # With enough particles for the threads to share them.
-    for scene in ("default", "implicit", "paper", "paper_local", "periodic"):
+    for scene in ("default", "implicit", "paper", "paper_local", "periodic", "fluid", "fluid_periodic"):
         extra = ("--size", 3 if scene != "implicit" else 2, "--threads", 0)
         whole = bench.run(scene, "--to-step", END, "--log", *extra, threads=1)
         for threads in ((1, 2), (4, 1), (3, 3)):

@@ -3,7 +3,7 @@
 The Python side of the C library of that name. Start with help(granperi.Simulation); pictures are in granperi.plot.
 """
 from ._compare import Difference, compare
-from ._enums import Density, Field, InitialPressure, Preset, StepLimit, Stress, Wall
+from ._enums import Density, Field, Fluidity, InitialPressure, Preset, StepLimit, Stress, Wall
 from ._errors import (ArgumentError, ArgumentTypeError, DivergedError, Error, FileError, GranperiWarning, InternalError,
                       OutOfMemoryError, StateError, UnsupportedError, VersionError)
 from ._estimate import Estimate, estimate
@@ -31,7 +31,7 @@ load = Simulation.load
 
 __all__ = [
     "ArgumentError", "ArgumentTypeError", "Clock", "Column", "Config", "Density", "Difference", "DivergedError", "Error",
-    "Estimate", "Field", "FieldView", "FileError", "GranperiWarning", "History", "InitialPressure", "InternalError",
+    "Estimate", "Field", "FieldView", "FileError", "Fluidity", "GranperiWarning", "History", "InitialPressure", "InternalError",
     "Load", "Material", "OutOfMemoryError", "Output", "Particles", "PlanEntry", "Plate", "Preset", "Result", "Run",
     "Scene", "SceneError", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",
     "UnsupportedError", "VersionError", "View", "Wall", "compare", "estimate", "has_feature", "load",

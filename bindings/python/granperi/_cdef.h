@@ -90,6 +90,8 @@ typedef struct gp_material {
     double mu_s;
     double mu_2;
     double i0;
+    double nonlocal_amplitude;
+    double fluidity_time;
     double k0;
 } gp_material;
 
@@ -144,7 +146,13 @@ typedef struct gp_plate {
     double omega;
     const double *knot_angle;
     double surface_velocity;
+    int32_t fluidity;
 } gp_plate;
+
+enum {
+    GP_FLUIDITY_FREE = 0,
+    GP_FLUIDITY_ZERO = 1
+};
 
 gp_status gp_plate_init(gp_plate *plate, size_t size);
 
@@ -200,9 +208,10 @@ gp_status gp_set_log(gp_sim *sim, gp_log log, void *user);
 #define GP_FIELD_INERTIAL_NUMBER 4096
 #define GP_FIELD_VISCOSITY 8192
 #define GP_FIELD_NUMBER_DENSITY 16384
+#define GP_FIELD_FLUIDITY 32768
 #define GP_FIELD_POSITION 12
 #define GP_FIELD_VELOCITY 48
-#define GP_FIELD_ALL 32767
+#define GP_FIELD_ALL 65535
 
 typedef struct gp_particles {
     uint32_t struct_size;
@@ -223,6 +232,7 @@ typedef struct gp_particles {
     const double *inertial_number;
     const double *viscosity;
     const double *number_density;
+    const double *fluidity;
 } gp_particles;
 
 gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles);

@@ -45,6 +45,13 @@ class Wall(enum.IntEnum):
     COULOMB = lib.GP_WALL_COULOMB
 
 
+class Fluidity(enum.IntEnum):
+    """What a plate does to the granular fluidity of the material in front of it."""
+
+    FREE = lib.GP_FLUIDITY_FREE
+    ZERO = lib.GP_FLUIDITY_ZERO
+
+
 class StepLimit(enum.IntEnum):
     """What set the time step."""
 
@@ -76,6 +83,7 @@ class Field(enum.IntFlag):
     INERTIAL_NUMBER = lib.GP_FIELD_INERTIAL_NUMBER
     VISCOSITY = lib.GP_FIELD_VISCOSITY
     NUMBER_DENSITY = lib.GP_FIELD_NUMBER_DENSITY
+    FLUIDITY = lib.GP_FIELD_FLUIDITY
 
 
 FIELD_NAMES = tuple(name.lower() for name in Field.__members__)
@@ -98,6 +106,7 @@ FIELD_MEANINGS = {
     "inertial_number": "I = 2 d |gamma| / sqrt(p / rho_s), 0 where p = 0 (Jin et al. 2021, 3.4)",
     "viscosity": "tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2), or eta_r, Pa s (Jin et al. 2021, 3.6)",
     "number_density": "N, the sum of the weights of the neighbours within interaction_radius (Jin et al. 2021, 2.4)",
+    "fluidity": "g, the plastic shear rate 2 |gamma| over tau / p, 1/s; 0 without Material.nonlocal_amplitude",
 }
 FIELD_GROUPS = {"position": ("x", "y"), "velocity": ("vx", "vy"), "stress": ("sxx", "sxy", "syy"), "all": FIELD_NAMES}
 

@@ -198,7 +198,8 @@ class Material(Parameters):
     """A granular material; the default is glass beads.
 
     grain_density [kg/m3], volume_fraction, grain_diameter [m], mu_s (friction at I = 0), mu_2 (at large I), i0, k0 (side stress
-    over vertical stress with which columns begin; 0: isotropic).
+    over vertical stress with which columns begin; 0: isotropic). nonlocal_amplitude is A of the granular fluidity (0: the local
+    law; glass beads 0.48), fluidity_time [s] the time in which it follows; take a spacing of at most half a grain with it.
     """
 
     _struct = "gp_material"
@@ -208,6 +209,8 @@ class Material(Parameters):
     mu_s: float
     mu_2: float
     i0: float
+    nonlocal_amplitude: float
+    fluidity_time: float
     k0: float
 
 

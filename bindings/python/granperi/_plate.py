@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._enums import Wall
+from ._enums import Fluidity, Wall
 from ._errors import ArgumentError, ArgumentTypeError, doubles, number
 from ._objects import Parameters, _signed
 
@@ -20,7 +20,8 @@ class Plate(Parameters):
     is closed: clockwise it holds material (a drum), counter-clockwise it is an obstacle. floor, wall, gate and line make the
     usual ones, turned the right way.
 
-    friction: "no_slip" (the default), "free_slip" or "coulomb" (then wall_mu >= 0).
+    friction: "no_slip" (the default), "free_slip" or "coulomb" (then wall_mu >= 0). fluidity, of materials
+    with nonlocal_amplitude: "free" (the default), or "zero" if the plate holds the grains in front of it.
 
     It is at rest, or moves at vx, vy [m/s] and turns at omega [rad/s, counter-clockwise] about pivot_x, pivot_y [m], which
     moves along; or by the table knot_t [s], knot_x, knot_y [m], knot_angle [rad] (shape (n), displacements and turn since
@@ -31,7 +32,7 @@ class Plate(Parameters):
     """
 
     _struct = "gp_plate"
-    _enums = {"friction": Wall}
+    _enums = {"friction": Wall, "fluidity": Fluidity}
     _tables = {"n_knots": ("knot_t", "knot_x", "knot_y", "knot_angle"), "n_points": ("point_x", "point_y")}
     _also = ("points",)
     x0: float
@@ -54,6 +55,7 @@ class Plate(Parameters):
     omega: float
     knot_angle: np.ndarray | None
     surface_velocity: float
+    fluidity: Fluidity
 
     def _set(self, name: str, value: Any) -> None:
         if name == "points":

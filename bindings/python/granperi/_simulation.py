@@ -57,6 +57,7 @@ class Simulation:
         inertial_number: NDArray[np.float64]
         viscosity: NDArray[np.float64]
         number_density: NDArray[np.float64]
+        fluidity: NDArray[np.float64]
 
     def __init__(self, config: Config | None = None, **values: Any):
         """config: a Config, or its parameters by keyword."""

@@ -32,9 +32,10 @@ LABELS = {
     "vx": "velocity in x (m/s)", "vy": "velocity in y (m/s)", "sxx": "deviatoric stress xx (Pa)",
     "sxy": "shear stress xy (Pa)", "syy": "deviatoric stress yy (Pa)", "shear_rate": "shear rate (1/s)",
     "inertial_number": "inertial number I", "viscosity": "viscosity (Pa s)", "number_density": "number density",
+    "fluidity": "fluidity g (1/s)",
     "column": "column", "id": "particle", "x": "x (m)", "y": "y (m)", "yielded": "state",
 }
-_LOGARITHMIC = {"inertial_number": (1e-4, 1.0), "viscosity": None, "shear_rate": None}
+_LOGARITHMIC = {"inertial_number": (1e-4, 1.0), "viscosity": None, "shear_rate": None, "fluidity": None}
 _SIGNED = ("vx", "vy", "sxx", "sxy", "syy")
 _WIDTH = 9.6  # inches
 _SMALL, _LARGE = 14, 16  # points; readable at half size

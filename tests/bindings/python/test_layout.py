@@ -59,7 +59,7 @@ def test_read_objects_have_every_field(kind, struct):
 
 @pytest.mark.parametrize("kind, prefix", [
     (granperi.Preset, "GP_PRESET_"), (granperi.Stress, "GP_STRESS_"), (granperi.Density, "GP_DENSITY_"),
-    (granperi.InitialPressure, "GP_INITIAL_"), (granperi.Wall, "GP_WALL_"), (granperi.StepLimit, "GP_DT_"),
+    (granperi.InitialPressure, "GP_INITIAL_"), (granperi.Wall, "GP_WALL_"), (granperi.Fluidity, "GP_FLUIDITY_"), (granperi.StepLimit, "GP_DT_"),
     (granperi.Field, "GP_FIELD_")])
 def test_enumerations_are_complete(kind, prefix):
     in_library = {name[len(prefix):]: getattr(lib, name) for name in dir(lib) if name.startswith(prefix)}
