@@ -67,7 +67,7 @@ def test_fields_are_copies_in_the_order_of_id(sim):
     fields = sim.particles("velocity", "pressure")
     assert fields.names == ("vx", "vy", "pressure") and np.array_equal(fields["vx"], sim.vx)
     assert np.array_equal(fields.pressure, sim.pressure) and len(fields) == 50
-    assert len(sim.particles().names) == 15
+    assert len(sim.particles().names) == 16
     with pytest.raises(AttributeError, match="'x' is not here"):
         fields.x
     with pytest.raises(granperi.ArgumentError, match="did you mean 'pressure'"):
