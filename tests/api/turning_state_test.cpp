@@ -142,9 +142,9 @@ TEST(TurningState, IsThatOfTheLastGoodStep) {
 
 TEST(TurningState, GoesOnWithAShorterStep) {
     const double limit = Turning().sim.state().dt_limit;
-    Turning turning(1, 0.2, 6 * limit, 8);
+    Turning turning(1, 0.2, 9 * limit, 8);
     ASSERT_EQ(Turning::go(turning.sim, 0, 120), GP_OK) << gp_last_error();
     const gp_state state = turning.sim.state();
-    EXPECT_LT(state.dt, 6 * limit);
+    EXPECT_GT(state.retries, 0);
     EXPECT_NEAR(turning.sim.load(0).angle, 3 * state.time, 1e-12 * 3 * state.time);
 }
