@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "../examples/c/example.h"
@@ -355,13 +354,10 @@ int main(int argc, char **argv) {
         {"--preset", "default or paper, of cells and columns; paper without fluidity [default]", BENCH_TEXT, &c.preset,
          0, 0},
     };
-    int k = 0;
+    int k;
     example_program(argv[0]);
     bench_parse(argc, argv, 2, usage, (int)(sizeof options / sizeof options[0]), options);
-    while (k < n && (argc < 2 || strcmp(argv[1], cases[k].name) != 0))
-        ++k;
-    if (k == n)
-        bench_refuse(argc < 2 ? "a case" : argv[1], NULL, "expected one of the cases");
+    k = bench_case(argc, argv, cases, sizeof cases[0], n);
     c.end = isnan(c.end) ? cases[k].end : c.end;
     c.sound_speed = isnan(c.sound_speed) ? cases[k].sound_speed : c.sound_speed;
     cases[k].run(&c);

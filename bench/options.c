@@ -12,6 +12,14 @@ void bench_refuse(const char *name, const char *value, const char *expected) {
     exit(2);
 }
 
+int bench_case(int argc, char **argv, const void *cases, size_t size, int n) {
+    for (int k = 0; argc > 1 && k < n; ++k)
+        if (strcmp(argv[1], *(const char *const *)((const char *)cases + (size_t)k * size)) == 0)
+            return k;
+    bench_refuse(argc < 2 ? "a case" : argv[1], NULL, "expected one of the cases");
+    return -1;
+}
+
 static double number(const bench_option *o, const char *text, char **rest) {
     char expected[120];
     const double value = strtod(text, rest);

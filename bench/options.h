@@ -2,6 +2,8 @@
 #ifndef GRANPERI_BENCH_OPTIONS_H
 #define GRANPERI_BENCH_OPTIONS_H
 
+#include <stddef.h>
+
 enum { BENCH_LIST_MAX = 64 };
 
 typedef struct bench_list {
@@ -31,6 +33,9 @@ void bench_parse(int argc, char **argv, int first, const char *usage, int n, con
 
 /* Ends the program with this message and status 2. */
 void bench_refuse(const char *name, const char *value, const char *expected);
+
+/* Number of the case that the first argument names; any other is refused. cases: n structs of `size` bytes that begin with a name. */
+int bench_case(int argc, char **argv, const void *cases, size_t size, int n);
 
 /* Index of text among the n names; ends the program if it is none of them. */
 int bench_choice(const char *option, const char *text, int n, const char *const *names);

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "options.h"
@@ -94,13 +93,10 @@ int main(int argc, char **argv) {
          &coulomb, 0, 1},
         {"--bed", "m, thickness of the layer under the column [0]", BENCH_NUMBER, &c.bed, 0, 1},
     };
-    int k = 0;
+    int k;
     example_program(argv[0]);
     bench_parse(argc, argv, 2, usage, (int)(sizeof options / sizeof options[0]), options);
-    while (k < n && (argc < 2 || strcmp(argv[1], cases[k].name) != 0))
-        ++k;
-    if (k == n)
-        bench_refuse(argc < 2 ? "a case" : argv[1], NULL, "expected one of the cases");
+    k = bench_case(argc, argv, cases, sizeof cases[0], n);
     c.rows = isnan(c.rows) ? cases[k].rows : c.rows;
     c.angle = isnan(c.angle) ? cases[k].angle : c.angle;
     c.end = isnan(c.end) ? cases[k].end : c.end;

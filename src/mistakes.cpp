@@ -24,9 +24,7 @@ template <class Visit> void for_each_segment(const Walls &walls, const Visit &vi
 // Calls visit(i, place) for the particles about a segment, and for their images where the segment reaches over an end of the
 // period.
 template <class Visit> void for_each_about(const World &world, const Segment &s, double margin, const Visit &visit) {
-    const Vector end = s.origin + s.length * s.tangent;
-    const Box box{std::min(s.origin.x(), end.x()) - margin, std::max(s.origin.x(), end.x()) + margin,
-                  std::min(s.origin.y(), end.y()) - margin, std::max(s.origin.y(), end.y()) + margin};
+    const Box box = box_around(s, margin);
     const double length = world.constants.period.length;
     for (int side = length > 0 ? -1 : 0; side <= (length > 0 ? 1 : 0); ++side) {
         const double shift = side * length;
@@ -175,6 +173,17 @@ std::vector<std::string> scene_mistakes(const World &world) {
     tell_unborne(*world.scene, texts);
     tell_coarse_fluidity(*world.scene, texts);
     return texts;
+}
+
+int64_t count_on_lines(const World &world, double margin) {
+    std::vector<uint8_t> found(static_cast<std::size_t>(world.particles.count));
+    for_each_segment(world.walls, [&](int32_t, const Segment &s) {
+        for_each_about(world, s, margin, [&](int64_t i, const Vector &at) {
+            if (std::abs(s.distance(at)) < margin && s.covers(s.along(at), 0))
+                found[i] = 1;
+        });
+    });
+    return std::count(found.begin(), found.end(), uint8_t{1});
 }
 
 std::string lost_particles(const World &world) {

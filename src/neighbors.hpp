@@ -23,6 +23,13 @@ struct Box {
     }
 };
 
+// A segment and what is within a margin of it, with some more at its ends.
+inline Box box_around(const Segment &s, double margin) {
+    const Vector end = s.origin + s.length * s.tangent;
+    return {std::min(s.origin.x(), end.x()) - margin, std::max(s.origin.x(), end.x()) + margin,
+            std::min(s.origin.y(), end.y()) - margin, std::max(s.origin.y(), end.y()) + margin};
+}
+
 // Cells over the particles. Where the particles are few for the space they span (fragments far away), a search over the
 // sorted keys replaces the table of cells.
 class CellGrid {

@@ -80,9 +80,8 @@ void Plate::place(double time, double dt) {
 }
 
 double Plate::fastest() const {
-    const double belt = std::abs(spec_->surface_velocity);
-    const double speed = state_.motion.velocity.norm();
-    return state_.motion.omega == 0 ? speed + belt : speed + belt + std::abs(state_.motion.omega) * spec_->farthest;
+    return state_.motion.velocity.norm() + std::abs(spec_->surface_velocity) +
+           std::abs(state_.motion.omega) * spec_->farthest;
 }
 
 } // namespace gp

@@ -9,19 +9,6 @@
 
 namespace gp {
 
-int64_t Walls::count_overlapping(const Particles &particles, double margin) const {
-    int64_t found = 0;
-    for (int64_t i = 0; i < particles.count; ++i) {
-        const Vector at(particles.x[i], particles.y[i]);
-        found += std::any_of(facets.begin(), facets.end(), [&](const Facet &facet) {
-            const Segment &s = facet.segment;
-            const Vector image = nearest_image(s, at);
-            return std::abs(s.distance(image)) < margin && s.covers(s.along(image), 0);
-        });
-    }
-    return found;
-}
-
 int64_t Walls::bytes() const {
     int64_t total = particles_of_ghost.bytes() + chains_.bytes() + cells_.bytes();
     for (const Field<double> *field :
@@ -35,16 +22,6 @@ int64_t Walls::bytes() const {
            static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
                                 places_.capacity() * sizeof(WallPlace) + images_.capacity() * sizeof(FacetImage));
 }
-
-namespace {
-
-Box box_around(const Segment &s, double margin) {
-    const Vector end = s.origin + s.length * s.tangent;
-    return {std::min(s.origin.x(), end.x()) - margin, std::max(s.origin.x(), end.x()) + margin,
-            std::min(s.origin.y(), end.y()) - margin, std::max(s.origin.y(), end.y()) + margin};
-}
-
-} // namespace
 
 void Walls::make_facets(const Scene &scene) {
     facets.clear();

@@ -131,9 +131,6 @@ struct Walls {
     // Moves the ghosts along with their plates.
     void place_ghosts(int threads);
 
-    // Particles within `margin` of a plate's wetted line, on either side: a scene drawn wrongly.
-    int64_t count_overlapping(const Particles &particles, double margin) const;
-
 private:
     const std::vector<FacetImage> &images_of_facets();
     void find_near(const Particles &particles, const CellGrid &grid, double radius);

@@ -248,7 +248,7 @@ std::vector<std::string> Warnings::of_scene(const World &world) {
     if (config.cfl * c.spacing / c.wave_speed > limit)
         texts.push_back(format_text("gp_config.cfl = %g is beyond the stable limit of %g", config.cfl,
                                     limit * c.wave_speed / c.spacing));
-    const int64_t wrong_side = world.walls.count_overlapping(world.particles, 0.25 * c.spacing);
+    const int64_t wrong_side = count_on_lines(world, 0.25 * c.spacing);
     if (wrong_side > 0)
         texts.push_back(format_text("%lld particles begin within a quarter spacing of a plate's wetted line or just "
                                     "behind it",
