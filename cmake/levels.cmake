@@ -16,8 +16,14 @@ check_cxx_source_compiles("#if !defined(__x86_64__) || !defined(__ELF__) || defi
 #endif
 int main() {}" GRANPERI_PLAIN_X86_64)
 unset(CMAKE_REQUIRED_QUIET)
-execute_process(COMMAND ${CMAKE_LINKER} --help OUTPUT_VARIABLE linker_options ERROR_QUIET)
-if(GRANPERI_PLAIN_X86_64 AND CMAKE_OBJCOPY AND linker_options MATCHES "--force-group-allocation")
+set(relink "") # the linker for that; for clang CMake names lld, which learned it in version 19, where clang itself takes GNU's
+foreach(linker ${CMAKE_LINKER} ld.bfd ld)
+  execute_process(COMMAND ${linker} --help OUTPUT_VARIABLE help ERROR_QUIET)
+  if(NOT relink AND help MATCHES "--force-group-allocation.*elf64-x86-64")
+    set(relink ${linker})
+  endif()
+endforeach()
+if(GRANPERI_PLAIN_X86_64 AND CMAKE_OBJCOPY AND relink)
   set(levels_possible ON)
 else()
   set(levels_possible OFF)
@@ -31,8 +37,8 @@ if(GRANPERI_LEVEL STREQUAL "auto")
   endif()
 elseif(GRANPERI_LEVEL STREQUAL "all")
   if(NOT levels_possible)
-    message(FATAL_ERROR "GRANPERI_LEVEL=all needs a compiler for x86-64 that is not told of AVX2, a linker with "
-                        "--force-group-allocation (GNU ld) and objcopy: CMAKE_LINKER is ${CMAKE_LINKER}, CMAKE_OBJCOPY ${CMAKE_OBJCOPY}")
+    message(FATAL_ERROR "GRANPERI_LEVEL=all needs a compiler for x86-64 that is not told of AVX2, GNU ld and objcopy: CMAKE_LINKER is "
+                        "${CMAKE_LINKER}, CMAKE_OBJCOPY ${CMAKE_OBJCOPY}")
   endif()
   set(GRANPERI_LEVELS ON)
 elseif(NOT GRANPERI_LEVEL STREQUAL "one")
@@ -55,7 +61,7 @@ function(granperi_make_level level objects)
   set(whole ${PROJECT_BINARY_DIR}/${table}.o)
   add_custom_command(
     OUTPUT ${whole}
-    COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${whole} $<TARGET_OBJECTS:${objects}>
+    COMMAND ${relink} -r --force-group-allocation -o ${whole} $<TARGET_OBJECTS:${objects}>
     COMMAND ${CMAKE_OBJCOPY} --wildcard --weaken-symbol=_Z* ${whole} # else it passes over g++'s STB_GNU_UNIQUE
     COMMAND ${CMAKE_OBJCOPY} --keep-global-symbol=${table} ${whole}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
