@@ -56,13 +56,13 @@ function(granperi_make_level level objects)
   set(table granperi_level_${level})
   target_sources(${objects} PRIVATE src/levels/table.cpp)
   target_compile_definitions(${objects} PRIVATE GP_LEVEL_TABLE=${table} "GP_LEVELS=\"x86-64 or x86-64-v3\"")
-  target_compile_options(${objects} PRIVATE -fno-lto) # names can be made local in machine code alone
+  # Names can be made local in machine code alone, and not if they are for the whole process (STB_GNU_UNIQUE).
+  target_compile_options(${objects} PRIVATE -fno-lto $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   set_target_properties(${objects} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
   set(whole ${PROJECT_BINARY_DIR}/${table}.o)
   add_custom_command(
     OUTPUT ${whole}
     COMMAND ${relink} -r --force-group-allocation -o ${whole} $<TARGET_OBJECTS:${objects}>
-    COMMAND ${CMAKE_OBJCOPY} --wildcard --weaken-symbol=_Z* ${whole} # else it passes over g++'s STB_GNU_UNIQUE
     COMMAND ${CMAKE_OBJCOPY} --keep-global-symbol=${table} ${whole}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
     COMMENT "Making the names of ${table} local" COMMAND_EXPAND_LISTS VERBATIM)

@@ -35,6 +35,8 @@ def main():
         whole = getattr(arguments, level)
         seen = names(whole)
         require(seen == {f"granperi_level_{level}"}, whole, "has other names than that of its table:", *sorted(seen)[:9])
+        weak = [words[-1] for words in map(str.split, output("nm", "--undefined-only", whole).splitlines()) if words[0] == "w"]
+        require(not weak, whole, "has weak references, which a static link leaves empty:", *weak[:9])
         # Constructors of objects before main run whatever the processor.
         sections = re.findall(r"\.(?:init_array|ctors|preinit_array)\S*", output("readelf", "-SW", whole))
         require(not sections, whole, "computes something before main:", *sections)
