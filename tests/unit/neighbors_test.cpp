@@ -41,7 +41,7 @@ struct Points {
 };
 
 // Calls found(i, j, entry) for what each particle sees, by its cluster's row.
-template <class Found> void for_each_entry(const World &world, const Found &found) {
+template <class Found> void for_each_seen_of(const World &world, const Found &found) {
     const ClusterList &clusters = world.clusters;
     int64_t expected = 0;
     for (int64_t c = 0; c < clusters.count(); ++c) {
@@ -62,7 +62,7 @@ double distance(const World &world, int64_t i, int64_t j) {
 std::set<std::pair<int64_t, int64_t>> listed_pairs(const World &world) {
     std::set<std::pair<int64_t, int64_t>> pairs;
     const double radius = world.constants.horizon + world.skin;
-    for_each_entry(world, [&](int64_t, int64_t i, int64_t j) {
+    for_each_seen_of(world, [&](int64_t, int64_t i, int64_t j) {
         if (distance(world, i, j) < radius) {
             EXPECT_TRUE(pairs.insert({world.particles.id[i], world.particles.id[j]}).second);
         }
@@ -95,13 +95,13 @@ TEST(Neighbors, AgreeWithBruteForce) {
         const ClusterList &clusters = world.clusters;
         const double close = 0.9 + world.skin;
         for (int64_t c = 0; c < clusters.count(); ++c)
-            for (int64_t k = clusters.start[c]; k < clusters.stop[c]; ++k) {
+            for_each_entry(clusters, c, clusters.start[c + 1], [&](int64_t k, int32_t j) {
                 double nearest = INFINITY;
                 for (int64_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i)
-                    nearest = std::min(nearest, distance(world, i, clusters.index[k]));
+                    nearest = std::min(nearest, distance(world, i, j));
                 EXPECT_LT(nearest, radius);
-                EXPECT_EQ(k < clusters.close_stop[c], nearest < close);
-            }
+                EXPECT_EQ(k < clusters.start[c] + clusters.close[c], nearest < close);
+            });
         // The rows of single particles hold the same.
         NeighborList rows;
         find_neighbors(world.particles, clusters, radius, 1, rows);
