@@ -228,12 +228,15 @@ private:
                     look_through(p_, barriers_, tolerance_, static_cast<int32_t>(first), static_cast<int32_t>(last),
                                  begin, n, draft.seen_by.data() + (begin - draft.index.data()));
             *at = static_cast<int32_t>(n);
-            int64_t steps = 0, close_steps = 0;
-            walk(begin, n, first, lanes, [&](int32_t, int64_t k) {
-                ++steps;
-                if (k >= 0 && k < close)
-                    close_steps = steps;
-            });
+            int64_t steps = n, close_steps = close;
+            if (has_long_way(begin, n, static_cast<int32_t>(first))) {
+                steps = close_steps = 0;
+                walk(begin, n, first, lanes, [&](int32_t, int64_t k) {
+                    ++steps;
+                    if (k >= 0 && k < close)
+                        close_steps = steps;
+                });
+            }
             list_.start[c + 1] = steps;
             list_.close[c] = static_cast<int32_t>(close_steps);
             at = begin + n;
@@ -259,6 +262,13 @@ private:
                     row.add(static_cast<int32_t>(j + k), found[k]);
             }
         });
+    }
+
+    static bool has_long_way(const int32_t *row, int64_t n, int32_t first) {
+        int32_t longest = n > 0 ? std::abs(row[0] - first) : 0;
+        for (int64_t k = 1; k < n; ++k)
+            longest = std::max(longest, std::abs(row[k] - row[k - 1]));
+        return longest > longest_step;
     }
 
     // Calls taken(step, k) for the steps along a row; k is -1 for those to places between its entries.
@@ -310,14 +320,23 @@ private:
         for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
             const int64_t n = *at;
             const int32_t *const row = at + 1;
-            int64_t entry = list_.start[c];
             const bool partly = !list_.partly_seen.empty() && list_.partly_seen[c];
-            walk(row, n, list_.first[c], lanes_of(c), [&](int32_t step, int64_t k) {
-                list_.step[entry] = static_cast<int16_t>(step);
+            int16_t *const steps = list_.step.data() + list_.start[c];
+            uint8_t *const seen_by = partly ? list_.seen_by.data() + list_.start[c] : nullptr;
+            const uint8_t *const drafted = partly ? draft.seen_by.data() + (row - draft.index.data()) : nullptr;
+            if (list_.start[c + 1] - list_.start[c] == n) { // no long ways
+                for (int64_t k = 0; k < n; ++k)
+                    steps[k] = static_cast<int16_t>(row[k] - (k > 0 ? row[k - 1] : list_.first[c]));
                 if (partly)
-                    list_.seen_by[entry] = k < 0 ? uint8_t{0} : draft.seen_by[row - draft.index.data() + k];
-                ++entry;
-            });
+                    std::copy_n(drafted, n, seen_by);
+            } else {
+                int64_t entry = 0;
+                walk(row, n, list_.first[c], lanes_of(c), [&](int32_t step, int64_t k) {
+                    if (partly)
+                        seen_by[entry] = k < 0 ? uint8_t{0} : drafted[k];
+                    steps[entry++] = static_cast<int16_t>(step);
+                });
+            }
             at = row + n;
         }
     }
