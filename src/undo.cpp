@@ -28,10 +28,10 @@ struct FieldList {
 FieldList fields_changed_in_place(World &world) {
     Particles &p = world.particles;
     FieldList fields;
-    fields.add({&p.density, &p.pressure, &p.sxx, &p.sxy});
+    fields.add({&p.density, &p.pressure});
     const Scheme scheme = world.constants.scheme;
     if (scheme != Scheme::adjoint) // particles move before all of the step is known
-        fields.add({&p.x, &p.y, &p.vx, &p.vy});
+        fields.add({&p.sxx, &p.sxy, &p.x, &p.y, &p.vx, &p.vy});
     if (by_number_density(scheme))
         fields.add({&p.syy});
     if (world.constants.fluid)
@@ -54,6 +54,25 @@ void undo_sort(World &world) {
     world.particles.reorder(place, world.threads);
 }
 
+// What the step has lent goes back to the fields that it begins with.
+void give_memory_back(World &world) {
+    StepStart &start = world.step_start;
+    Particles &p = world.particles;
+    if (world.constants.scheme != Scheme::adjoint) {
+        p.give_back(false);
+        return;
+    }
+    p.give_back(true);
+    if (!start.sxx.empty()) {
+        hand_over(start.sxx, p.gxx);
+        hand_over(start.sxy, p.gxy);
+    }
+    if (p.push_x.empty()) {
+        hand_over(start.made[0], p.push_x);
+        hand_over(start.made[1], p.push_y);
+    }
+}
+
 } // namespace
 
 void begin_step(World &world) {
@@ -71,9 +90,12 @@ void keep_fields(World &world) {
     const auto changed = fields_changed_in_place(world);
     const auto made = fields_made_anew(world);
     start.copied.resize(changed.size());
-    start.made.resize(made.size());
     for (std::size_t k = 0; k < changed.size(); ++k)
         start.copied[k].resize(world.particles.count);
+    if (world.constants.scheme == Scheme::adjoint) { // pushes come after the step is known to be good
+        hand_over(world.particles.push_x, start.made[0]);
+        hand_over(world.particles.push_y, start.made[1]);
+    }
     for (std::size_t k = 0; k < made.size(); ++k)
         start.made[k].resize(made[k]->size()); // with the places of images
     for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
@@ -85,9 +107,18 @@ void keep_fields(World &world) {
     start.fields_kept = true;
 }
 
+void accept_step(World &world) {
+    world.step_start.fields_kept = false;
+    give_memory_back(world);
+}
+
 void undo_step(World &world, UndoneOrder order) {
     StepStart &start = world.step_start;
     if (start.fields_kept) {
+        if (!start.sxx.empty()) {
+            std::copy_n(start.sxx.begin(), world.particles.count, world.particles.sxx.begin());
+            std::copy_n(start.sxy.begin(), world.particles.count, world.particles.sxy.begin());
+        }
         const auto changed = fields_changed_in_place(world);
         const auto made = fields_made_anew(world);
         for (std::size_t k = 0; k < changed.size(); ++k)
@@ -100,8 +131,10 @@ void undo_step(World &world, UndoneOrder order) {
             for (Field<double> *field : changed)
                 if (field != &p.x && field != &p.y)
                     world.images.copy(*field);
+            world.images.copy({&world.particles.sxx, &world.particles.sxy});
         }
     }
+    give_memory_back(world);
     const bool sorted = world.lists_new && start.fields_kept && !world.constants.period;
     if (world.lists_new)
         world.lists_valid = false; // the plates are about to be where they were

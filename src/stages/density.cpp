@@ -55,6 +55,8 @@ void density(World &world) {
         world.sums[block].densest = densest;
         world.sums[block].unbounded = unbounded;
     });
+    if (flights)
+        hand_over(p.carried, p.cyy);
 }
 
 } // namespace gp::stages

@@ -203,22 +203,34 @@ View view_of(World &world, const ExchangeView &exchange) {
 
 } // namespace
 
+namespace {
+
+void run(World &world, const ExchangeView &exchange, ClusterLoop clusters) {
+    Particles &p = world.particles;
+    hand_over(p.cyx, p.crowding);
+    if (!world.walls.plates.empty())
+        hand_over(p.cyy, p.carried);
+    const View view = view_of(world, exchange);
+    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    hand_over(p.flowing, p.ax);
+    if (!p.bearing.empty())
+        hand_over(p.bearing, p.ay);
+}
+
+} // namespace
+
 void gradient(World &world) {
     ExchangeView exchange{};
     if (world.constants.fluid)
         exchange.fluidity = prepare_fluidity(world);
-    const View view = view_of(world, exchange);
-    const ClusterLoop clusters = world.constants.fluid ? fluid_clusters : plain_clusters;
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    run(world, exchange, world.constants.fluid ? fluid_clusters : plain_clusters);
 }
 
 void gradient_and_exchange(World &world) {
     ExchangeView exchange = prepare_exchange(world);
     if (world.constants.fluid)
         exchange.fluidity = prepare_fluidity(world);
-    const View view = view_of(world, exchange);
-    const ClusterLoop clusters = exchanging_loop(exchange.one_density, world.constants.fluid);
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    run(world, exchange, exchanging_loop(exchange.one_density, world.constants.fluid));
 }
 
 } // namespace gp::stages
