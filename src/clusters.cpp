@@ -184,7 +184,7 @@ public:
     }
 
 private:
-    static constexpr int64_t blocks_of_thread = 16;
+    static constexpr int64_t blocks_of_thread = 8; // as many as a thread needs to be worth its while
     static constexpr int longest_step = INT16_MAX;
 
     int64_t room_of(int64_t begin, int64_t end) const { return list_.draft.room[end] - list_.draft.room[begin]; }
@@ -307,7 +307,7 @@ private:
         if (static_cast<int64_t>(list_.step.size()) < needed) {
             // As if all rows were as long as those so far, and some more, so that later lists of about this size fit.
             const double all = static_cast<double>(needed) / static_cast<double>(last) * static_cast<double>(list_.count());
-            list_.step.reserve(static_cast<std::size_t>(1.06 * all));
+            list_.step.reserve(static_cast<std::size_t>(1.04 * all));
             list_.step.resize(list_.step.capacity());
         }
         if (!barriers_.segments.empty())
