@@ -4,6 +4,7 @@
 #include <array>
 #include <initializer_list>
 
+#include "material/compression.hpp"
 #include "parallel.hpp"
 
 namespace gp {
@@ -25,10 +26,18 @@ struct FieldList {
     Field<double> *const *end() const { return field.data() + count; }
 };
 
+// After a step of the default scheme the pressure is that of the density (stages::density), and need not be kept; a scene
+// begins with pressures of its own, whose densities are rounded.
+bool pressure_follows(const World &world) {
+    return world.constants.scheme == Scheme::adjoint && world.clock.step > 0;
+}
+
 FieldList fields_changed_in_place(World &world) {
     Particles &p = world.particles;
     FieldList fields;
-    fields.add({&p.density, &p.pressure});
+    fields.add({&p.density});
+    if (!pressure_follows(world))
+        fields.add({&p.pressure});
     const Scheme scheme = world.constants.scheme;
     if (scheme != Scheme::adjoint) // particles move before all of the step is known
         fields.add({&p.sxx, &p.sxy, &p.x, &p.y, &p.vx, &p.vy});
@@ -37,6 +46,13 @@ FieldList fields_changed_in_place(World &world) {
     if (world.constants.fluid)
         fields.add({&p.fluidity});
     return fields;
+}
+
+void follow_density(World &world) {
+    Particles &p = world.particles;
+    const double c2 = world.constants.sound_speed * world.constants.sound_speed;
+    for (int64_t i = 0; i < p.count; ++i)
+        p.pressure[i] = pressure_of(p.density[i], world.material_of(i).density, c2);
 }
 
 std::array<Field<double> *, 4> fields_made_anew(World &world) {
@@ -123,6 +139,8 @@ void undo_step(World &world, UndoneOrder order) {
         const auto made = fields_made_anew(world);
         for (std::size_t k = 0; k < changed.size(); ++k)
             std::copy(start.copied[k].begin(), start.copied[k].end(), changed[k]->begin());
+        if (pressure_follows(world))
+            follow_density(world);
         for (std::size_t k = 0; k < made.size(); ++k)
             made[k]->swap(start.made[k]);
         const Particles &p = world.particles;
@@ -131,7 +149,7 @@ void undo_step(World &world, UndoneOrder order) {
             for (Field<double> *field : changed)
                 if (field != &p.x && field != &p.y)
                     world.images.copy(*field);
-            world.images.copy({&world.particles.sxx, &world.particles.sxy});
+            world.images.copy({&world.particles.pressure, &world.particles.sxx, &world.particles.sxy});
         }
     }
     give_memory_back(world);

@@ -1,7 +1,7 @@
 // Takes an unfinished step back: the simulation then is what it was at the last good step, to be read or stepped anew.
 //
 // A step that diverges does so before it moves anything (stages::require_bounded_step). What stages have overwritten by
-// then is kept: density and pressure are copied beforehand, the stress before the step stays where the stage stress, which
+// then is kept: the density is copied beforehand, and the pressure follows from it; the stress before the step stays where the stage stress, which
 // reads it, has K^-1 no more; positions and velocities are copied, too, where the forces come in two parts (the schemes of the
 // paper have a predictor, the implicit one a solve that may fail). Of the velocity gradient, made anew in each step, two memories
 // take turns; half of the other one is that of the pushes, which come after. The rest is small: clock, ledger, plates.
