@@ -175,11 +175,13 @@ public:
         list_.start[0] = 0;
         for (int64_t block = 0; block < blocks; block += wave) {
             const int64_t end = std::min(blocks, block + wave);
-            for_each_block<1>(threads_, end - block, [&](int64_t k, int64_t, int64_t) { draft_block(block, block + k); });
+            for_each_block<1>(threads_, end - block,
+                              [&](int64_t k, int64_t, int64_t) { draft_block(block, block + k); });
             if (unwalkable_)
                 throw make_error(GP_E_DIVERGED, "more than %d particles within %g m of one", longest_step, radius_);
             make_place(block, end);
-            for_each_block<1>(threads_, end - block, [&](int64_t k, int64_t, int64_t) { place_block(block, block + k); });
+            for_each_block<1>(threads_, end - block,
+                              [&](int64_t k, int64_t, int64_t) { place_block(block, block + k); });
         }
     }
 
@@ -202,7 +204,8 @@ private:
             int64_t most = 0;
             for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
                 ++most;
-                for_each_run(grid_, images_, box_of_reach(c), [&](int64_t from, int64_t to, int) { most += to - from; });
+                for_each_run(grid_, images_, box_of_reach(c),
+                             [&](int64_t from, int64_t to, int) { most += to - from; });
             }
             room[block + 1] = most;
         });
@@ -306,7 +309,8 @@ private:
         const int64_t needed = list_.start[last];
         if (static_cast<int64_t>(list_.step.size()) < needed) {
             // As if all rows were as long as those so far, and some more, so that later lists of about this size fit.
-            const double all = static_cast<double>(needed) / static_cast<double>(last) * static_cast<double>(list_.count());
+            const double all =
+                static_cast<double>(needed) / static_cast<double>(last) * static_cast<double>(list_.count());
             list_.step.reserve(static_cast<std::size_t>(1.04 * all));
             list_.step.resize(list_.step.capacity());
         }

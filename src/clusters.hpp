@@ -43,8 +43,7 @@ struct ClusterList {
 };
 
 // Calls found(k, j) for the entries k of a row up to `stop`, and their particles or images j.
-template <class Found>
-void for_each_entry(const ClusterList &list, int64_t cluster, int64_t stop, const Found &found) {
+template <class Found> void for_each_entry(const ClusterList &list, int64_t cluster, int64_t stop, const Found &found) {
     int32_t j = list.first[cluster];
     for (int64_t k = list.start[cluster]; k < stop; ++k) {
         j += list.step[k];

@@ -71,9 +71,9 @@ private:
     Box box_;
     double inverse_width_ = 0, inverse_height_ = 0;
     int64_t columns_ = 0, rows_ = 0, count_ = 0;
-    Field<int32_t> start_; // table of cells, when it is small enough
-    Field<int64_t> key_;   // cell of each sorted particle, for the search otherwise
-    Field<int32_t> order_; // sorted position -> old position
+    Field<int32_t> start_;    // table of cells, when it is small enough
+    Field<int64_t> key_;      // cell of each sorted particle, for the search otherwise
+    Field<int32_t> order_;    // sorted position -> old position
     Field<int64_t> unsorted_; // cells of the particles in their old order, for the search
 };
 

@@ -39,33 +39,10 @@ void Particles::make_room(int64_t images) {
     };
     grow(column);
     // The gradient and its like are not read of neighbours, but their memory changes places with that of fields that are.
-    for (Field<double> *field : {&x,
-                                 &y,
-                                 &vx,
-                                 &vy,
-                                 &density,
-                                 &pressure,
-                                 &sxx,
-                                 &sxy,
-                                 &lxx,
-                                 &lxy,
-                                 &lyx,
-                                 &lyy,
-                                 &cxx,
-                                 &cxy,
-                                 &cyx,
-                                 &cyy,
-                                 &syy,
-                                 &ax,
-                                 &ay,
-                                 &push_x,
-                                 &push_y,
-                                 &gyy,
-                                 &stressed,
-                                 &rest,
-                                 &inverse_rest,
-                                 &fluidity,
-                                 &fluid_seen})
+    for (Field<double> *field :
+         {&x,   &y,      &vx,     &vy,  &density,  &pressure, &sxx,          &sxy,      &lxx,
+          &lxy, &lyx,    &lyy,    &cxx, &cxy,      &cyx,      &cyy,          &syy,      &ax,
+          &ay,  &push_x, &push_y, &gyy, &stressed, &rest,     &inverse_rest, &fluidity, &fluid_seen})
         grow(*field);
 }
 

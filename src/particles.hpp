@@ -58,7 +58,8 @@ struct Particles {
     Field<double> flowing;  // 1 at yield or without stress, else 0. From the stage flowing to gradient; then ax
     Field<double> bearing;  // 1 under pressure, else 0; in gradient, with density diffusion or fluidity; then ay
     Field<double> crowding; // sum of w where it flows, else 0. From gradient to density_of_spacing; then cyx
-    Field<double> carried;  // share of its stress that a particle near a plate carries. From gradient to density; then cyy
+    Field<double>
+        carried; // share of its stress that a particle near a plate carries. From gradient to density; then cyy
     // Share of the penalty: where p > 0, more inside the yield surface; only with it. From stress to force; in the default scheme
     // in the memory of gyy, with which stress has done.
     Field<double> stressed;

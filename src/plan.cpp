@@ -203,23 +203,22 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("acceleration", bytes_of_all(p.ax, p.ay));
     common("push", bytes_of_all(p.push_x, p.push_y));
     const bool own_memory = t.scheme != Scheme::adjoint;
-    entries.push_back(
-        field_entry("stressed", t.penalty,
-                    !t.penalty   ? "zero_energy_penalty is 0"
-                    : own_memory ? "the zero-energy penalty acts on stressed material"
-                                 : "the zero-energy penalty acts on stressed material; in the inverse shape tensor's memory",
-                    bytes_of(p.stressed)));
+    entries.push_back(field_entry(
+        "stressed", t.penalty,
+        !t.penalty   ? "zero_energy_penalty is 0"
+        : own_memory ? "the zero-energy penalty acts on stressed material"
+                     : "the zero-energy penalty acts on stressed material; in the inverse shape tensor's memory",
+        bytes_of(p.stressed)));
     const char *by_number = "the density is that of the positions";
     optional("flowing", !viscous, "densities are tied where it flows; in the acceleration's memory", by_number,
              bytes_of(p.flowing));
     optional("crowding", !viscous, "what flows keeps its volume; in the memory of stress over shape", by_number,
              bytes_of(p.crowding));
-    entries.push_back(
-        field_entry("bearing", t.diffusion || t.fluid,
-                    t.diffusion ? "density_diffusion > 0; in the acceleration's memory"
-                    : t.fluid   ? "nonlocal_amplitude > 0; in the acceleration's memory"
-                                : "density_diffusion and nonlocal_amplitude are 0",
-                    bytes_of(p.bearing)));
+    entries.push_back(field_entry("bearing", t.diffusion || t.fluid,
+                                  t.diffusion ? "density_diffusion > 0; in the acceleration's memory"
+                                  : t.fluid   ? "nonlocal_amplitude > 0; in the acceleration's memory"
+                                              : "density_diffusion and nonlocal_amplitude are 0",
+                                  bytes_of(p.bearing)));
     const bool exchanged = t.diffusion && !world.constants.one_density();
     entries.push_back(field_entry("rest_density", exchanged,
                                   !t.diffusion ? "density_diffusion is 0"

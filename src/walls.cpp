@@ -155,8 +155,7 @@ void Walls::find_seeing(const Particles &particles, const CellGrid &grid, const 
     const auto count = static_cast<int64_t>(candidates_.size());
     for_each_block<ghost_block_size>(threads, count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k)
-            for_each_within(particles, grid, images, places_[k], radius,
-                            [&](int64_t) { ++candidates_[k].neighbors; });
+            for_each_within(particles, grid, images, places_[k], radius, [&](int64_t) { ++candidates_[k].neighbors; });
     });
     int64_t entries = 0;
     for (Candidate &candidate : candidates_) {

@@ -142,7 +142,7 @@ private:
     void add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end);
     int32_t facing(int32_t facet, const Vector &at) const;
 
-    struct Candidate { // of the place of the same number
+    struct Candidate {     // of the place of the same number
         int64_t first;     // of its entries in particles_of_ghost and passed_
         int64_t neighbors; // particles and images that see it
         bool seen;         // by a particle
@@ -153,8 +153,8 @@ private:
     Barriers barriers_;
     std::vector<WallPlace> places_; // of ghosts
     std::vector<Candidate> candidates_;
-    Field<int32_t> passed_;          // the plate that the way passes from who sees a candidate
-    Field<int32_t> about_;           // facets about a ghost, for each block of ghosts
+    Field<int32_t> passed_; // the plate that the way passes from who sees a candidate
+    Field<int32_t> about_;  // facets about a ghost, for each block of ghosts
     Field<int32_t> passed_of_contact_;
 };
 

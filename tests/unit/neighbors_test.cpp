@@ -114,6 +114,41 @@ TEST(Neighbors, AgreeWithBruteForce) {
     }
 }
 
+// Rows of cells so long that no step of 16 bits leads to the row above: the way goes over places that nobody sees.
+TEST(Neighbors, AreFoundFartherThanAStep) {
+    const int columns = 40000, rows = 4;
+    std::vector<double> x, y;
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            x.push_back(i + 0.1 * std::sin(7.0 * i + j));
+            y.push_back(j + 0.1 * std::cos(5.0 * i - j));
+        }
+    Points points(x, y);
+    const World &world = points.build();
+    const Particles &p = world.particles;
+    const double radius = world.constants.horizon + world.skin;
+    int64_t longest = 0;
+    for (int64_t c = 0; c < world.clusters.count(); c += 97) {
+        const int64_t first = world.clusters.first[c];
+        std::set<int64_t> seen, expected;
+        for_each_entry(world.clusters, c, world.clusters.start[c + 1], [&](int64_t, int32_t j) {
+            ASSERT_GE(j, 0);
+            ASSERT_LT(j, p.count);
+            if (distance(world, first, j) < radius) {
+                EXPECT_TRUE(seen.insert(p.id[j]).second) << "twice";
+                longest = std::max(longest, std::abs(j - first));
+            }
+        });
+        const int64_t own = p.id[first] % columns;
+        for (int j = 0; j < rows; ++j)
+            for (int64_t i = std::max<int64_t>(0, own - 6); i < std::min<int64_t>(columns, own + 7); ++i)
+                if (const int64_t id = j * columns + i; std::hypot(x[id] - p.x[first], y[id] - p.y[first]) < radius)
+                    expected.insert(id);
+        EXPECT_EQ(seen, expected);
+    }
+    EXPECT_GT(longest, 2 * INT16_MAX);
+}
+
 TEST(Neighbors, DoNotSeeEachOtherThroughAPlate) {
     // Two particles on either side of a thin gate, one beyond its end.
     Points points({-0.5, 0.5, 0.5}, {1, 1, -2.5});
