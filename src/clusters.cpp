@@ -81,8 +81,8 @@ struct LanesAt {
 };
 
 // found[k]: 0 for a particle begin + k out of reach of every lane, 1 for one within the radius of some, 3 for a close one.
-GP_MULTIVERSION void test_run(const double *__restrict x, const double *__restrict y, int64_t n, const LanesAt &at,
-                              double radius2, double close2, int32_t *__restrict found) {
+void test_run(const double *__restrict x, const double *__restrict y, int64_t n, const LanesAt &at, double radius2,
+              double close2, int32_t *__restrict found) {
     const LanesAt own = at;
 #pragma omp simd
     for (int64_t k = 0; k < n; ++k) {

@@ -82,11 +82,11 @@ template <bool Penalty> GP_INLINE void force_clusters(const View &v, int64_t beg
     }
 }
 
-GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+void plain_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<false>(v, begin, end);
 }
 
-GP_MULTIVERSION void penalty_clusters(const View &v, int64_t begin, int64_t end) {
+void penalty_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<true>(v, begin, end);
 }
 
@@ -130,7 +130,7 @@ GP_INLINE SymmetricTensor contact_force(const WallView &v, const Tensor &a, cons
     return {sxx, sxy, syy};
 }
 
-GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
+void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
     const Particles &p = world.particles;
     const double half = 0.5 * world.constants.penalty;
     for (int64_t k = begin; k < end; ++k) {
