@@ -63,6 +63,10 @@ struct Barriers {
 void find_clusters(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
                    double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list);
 
+// The rows of clusters that have been cut (cluster_rows.cpp).
+void find_rows(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+               double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list);
+
 // Calls found(j) for the particles and images in the list of particle i's cluster that i sees: all within the radius, and
 // some that are not.
 template <class Found> void for_each_seen(const ClusterList &list, int64_t cluster, int64_t i, const Found &found) {
