@@ -54,12 +54,12 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"move_plates", t.plates, "a plate moves", no_plates,
          stages::move_plates, plates_move, "no plate moves now"},
         {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
-        // copies what the next stages overwrite
+        // copies what the next stages overwrite; takes the pushes' memory for the gradient before the step, until integrate
         {"keep_fields", t.particles, "a step that diverges is taken back", no_particles, keep_fields, nullptr, ""},
         // reads velocity; writes ghost velocity
         {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_velocity, in_reach, none_near},
-        // reads pressure, stress; writes which particles flow
+        // reads pressure, stress; writes which particles flow, in the acceleration's memory
         {"flowing", t.particles, "densities are tied to each other and to the spacing where it flows", no_particles,
          stages::flowing, nullptr, ""},
         // reads position, velocity; writes shape tensor, velocity gradient and, where it flows, number density; with density
@@ -78,7 +78,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads what neighbours pull the fluidity to, summed up by the gradient; writes it for the stress
         {"fluidity", t.particles && t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
          stages::fluidity, nullptr, ""},
-        // reads velocity gradient, pressure; writes stress, sigma K^-1; with fluidity that, too
+        // reads velocity gradient, pressure, shape tensor for the last time; writes stress, sigma K^-1; with fluidity that, too
         {"stress", t.particles, "elastic trial and return map", no_particles, stages::stress, nullptr, ""},
         // reads pressure, stress; writes ghost stress
         {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
