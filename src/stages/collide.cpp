@@ -40,8 +40,9 @@ int64_t count_partners(const View &v, int64_t begin, int64_t end) {
         const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes partners{};
-        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
-            const int32_t j = v.clusters.index[k];
+        int32_t j = v.clusters.first[c];
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+            j += v.clusters.step[k];
             const Lanes dx = x[j] - xi, dy = y[j] - yi;
             const Lanes r2 = dx * dx + dy * dy;
             // Where they are in the same place they do not approach: one's self among them.
@@ -77,8 +78,9 @@ void find_pushes(const View &v, int64_t begin, int64_t end) {
         }
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes du{}, dv{};
-        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
-            const int32_t j = v.clusters.index[k];
+        int32_t j = v.clusters.first[c];
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+            j += v.clusters.step[k];
             if (v.colliding[j] == 0)
                 continue;
             const Lanes dx = x[j] - xi, dy = y[j] - yi;

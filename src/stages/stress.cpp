@@ -157,8 +157,10 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
             cxy -= share * pxy;
             cyx -= share * pyx;
             cyy -= share * pyy;
-            places.store(p.stressed.data(), last, stressed);
+            places.store(p.gyy.data(), last, stressed); // which is over
         }
+        places.store(p.gxx.data(), last, old.xx);
+        places.store(p.gxy.data(), last, old.xy);
         places.store(p.sxx.data(), last, after.xx);
         places.store(p.sxy.data(), last, after.xy);
         places.store(p.cxx.data(), last, cxx);
@@ -203,6 +205,12 @@ void stress(World &world) {
         sums.bulk = p.volume * of_block.damped * world.clock.dt;
         sums.internal_power = p.volume * of_block.internal;
     });
+    // K^-1 has done its work: in its memory are now the deviator before the step, should this be taken back, and what the
+    // penalty goes by.
+    hand_over(p.gxx, world.step_start.sxx);
+    hand_over(p.gxy, world.step_start.sxy);
+    if (penalty)
+        hand_over(p.gyy, p.stressed);
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.constants.penalty > 0)
         world.images.copy(p.stressed);

@@ -13,7 +13,7 @@ LAYERS = [
     ["periodic"],
     ["neighbors"],
     ["segment_cells"],
-    ["clusters"],
+    ["clusters", "cluster_rows"],
     ["plate"],
     ["facet_chains"],
     ["sight"],
