@@ -26,34 +26,43 @@ ExchangeView prepare_exchange(World &world) {
     const bool one = std::all_of(c.body_material.begin(), c.body_material.end(),
                                  [&](int32_t material) { return c.materials[material].density == first; });
     // sigma K^-1 is made later in the step: until then it holds what is needed here.
-    Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.cyx, &inverse_rest = p.cyy;
+    Field<double> &excess = p.cxy, &bears = one ? p.cyx : p.bearing, &rest = p.cyx, &inverse_rest = p.cyy,
+                  &borne = p.cyy;
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);
-            excess[i] = p.density[i] - m.density;
-            bears[i] = excess[i] > 0 ? 1.0 : 0.0;
-            if (!one) {
+            const double over = p.density[i] - m.density, bearing = over > 0 ? 1.0 : 0.0;
+            if (one) {
+                excess[i] = p.flowing[i] * over;
+                bears[i] = p.flowing[i] * bearing;
+                borne[i] = bears[i] * p.density[i];
+            } else {
+                excess[i] = over;
+                bears[i] = bearing;
                 rest[i] = m.density;
                 inverse_rest[i] = 1.0 / m.density;
             }
         }
     });
-    world.images.copy({&excess, &bears, &p.flowing, &p.density});
-    if (!one)
-        world.images.copy({&rest, &inverse_rest});
-    return {p.density.data(),
-            excess.data(),
-            p.flowing.data(),
-            bears.data(),
-            rest.data(),
-            inverse_rest.data(),
-            world.scene->config().density_diffusion * c.sound_speed * c.spacing * world.clock.dt * 2.0 /
-                c.lattice.second_moment,
-            c.gravity.x() / c2,
-            c.gravity.y() / c2,
-            1.5 * c.lattice.number_density, // with the stable step less than all of the difference to the mean
-            one,
-            p.cxx.data()};
+    world.images.copy({&excess, &bears, &p.cyx, &p.cyy, &p.flowing, &p.density});
+    ExchangeView view{};
+    view.density = p.density.data();
+    view.flowing = p.flowing.data();
+    view.excess = view.excess_there = excess.data();
+    view.bears = view.bears_there = bears.data();
+    view.borne_there = borne.data();
+    view.rest = rest.data();
+    view.inverse_rest = inverse_rest.data();
+    view.rest_of_all = first;
+    view.rate = world.scene->config().density_diffusion * c.sound_speed * c.spacing * world.clock.dt * 2.0 /
+                c.lattice.second_moment;
+    view.hydrostatic_x = c.gravity.x() / c2;
+    view.hydrostatic_y = c.gravity.y() / c2;
+    view.largest_pace =
+        1.5 * c.lattice.number_density; // with the stable step less than all of the difference to the mean
+    view.one_density = one;
+    view.change = p.cxx.data();
+    return view;
 }
 
 void density_diffusion(World &world) {

@@ -60,7 +60,7 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
         m.mxy += du * wy;
         m.myx += dv * wx;
         m.myy += dv * wy;
-        local.add(j, w, dx, dy);
+        local.add(j, {w, dx, dy, wx, wy});
     }
     sum = m;
     exchange = local;
