@@ -44,7 +44,7 @@ ExchangeView prepare_exchange(World &world) {
             }
         }
     });
-    world.images.copy({&excess, &bears, &p.cyx, &p.cyy, &p.flowing, &p.density});
+    world.images.copy({&excess, &bears, &p.cyx, &p.cyy, &p.density});
     ExchangeView view{};
     view.density = p.density.data();
     view.flowing = p.flowing.data();
