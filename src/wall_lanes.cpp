@@ -13,22 +13,34 @@ void LaneRows::clear() {
 }
 
 void LaneRows::add(Row (&rows)[lane_count]) {
+    int64_t room = 0;
+    for (const Row &row : rows)
+        room += row.end - row.next;
+    const auto used = static_cast<int64_t>(index.size());
+    index.resize(used + room);
+    seen_by.resize(used + room);
+    int32_t *at = index.data() + used;
+    uint8_t *by = seen_by.data() + used;
+    const auto head = [](const Row &row) { return row.next != row.end ? *row.next : INT32_MAX; };
+    int32_t heads[lane_count];
+    for (int l = 0; l < lane_count; ++l)
+        heads[l] = head(rows[l]);
     for (;;) {
-        int32_t least = INT32_MAX;
-        for (const Row &row : rows)
-            if (row.next != row.end)
-                least = std::min(least, *row.next);
+        const int32_t least = std::min(std::min(heads[0], heads[1]), std::min(heads[2], heads[3]));
         if (least == INT32_MAX)
             break;
         unsigned lanes = 0;
         for (int l = 0; l < lane_count; ++l)
-            if (rows[l].next != rows[l].end && *rows[l].next == least) {
+            if (heads[l] == least) {
                 lanes |= 1U << l;
                 ++rows[l].next;
+                heads[l] = head(rows[l]);
             }
-        index.push_back(least);
-        seen_by.push_back(static_cast<uint8_t>(lanes));
+        *at++ = least;
+        *by++ = static_cast<uint8_t>(lanes);
     }
+    index.resize(at - index.data());
+    seen_by.resize(index.size());
     start.push_back(static_cast<int32_t>(index.size()));
 }
 
