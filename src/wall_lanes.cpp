@@ -21,21 +21,23 @@ void LaneRows::add(Row (&rows)[lane_count]) {
     seen_by.resize(used + room);
     int32_t *at = index.data() + used;
     uint8_t *by = seen_by.data() + used;
-    const auto head = [](const Row &row) { return row.next != row.end ? *row.next : INT32_MAX; };
+    // Without branches, which no processor foretells here.
+    static constexpr int32_t none = INT32_MAX;
+    const auto head = [](const Row &row) { return *(row.next != row.end ? row.next : &none); };
     int32_t heads[lane_count];
     for (int l = 0; l < lane_count; ++l)
         heads[l] = head(rows[l]);
     for (;;) {
         const int32_t least = std::min(std::min(heads[0], heads[1]), std::min(heads[2], heads[3]));
-        if (least == INT32_MAX)
+        if (least == none)
             break;
         unsigned lanes = 0;
-        for (int l = 0; l < lane_count; ++l)
-            if (heads[l] == least) {
-                lanes |= 1U << l;
-                ++rows[l].next;
-                heads[l] = head(rows[l]);
-            }
+        for (int l = 0; l < lane_count; ++l) {
+            const bool sees = heads[l] == least;
+            lanes |= static_cast<unsigned>(sees) << l;
+            rows[l].next += sees;
+            heads[l] = head(rows[l]);
+        }
         *at++ = least;
         *by++ = static_cast<uint8_t>(lanes);
     }
