@@ -1,6 +1,7 @@
 #include "clusters.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 #include "lanes.hpp"
@@ -11,7 +12,8 @@ namespace gp {
 int64_t ClusterList::bytes() const {
     return static_cast<int64_t>((first.capacity() + index.capacity() + cluster_of_block.capacity()) * sizeof(int32_t) +
                                 (start.capacity() + close_stop.capacity() + stop.capacity()) * sizeof(int64_t) +
-                                partly_seen.capacity() + seen_by.capacity());
+                                beyond[0].capacity() * shells * sizeof(uint16_t) + partly_seen.capacity() +
+                                seen_by.capacity());
 }
 
 namespace {
@@ -76,31 +78,91 @@ struct LanesAt {
     double x[lane_count], y[lane_count];
 };
 
-// found[k]: 0 for a particle begin + k out of reach of every lane, 1 for one within the radius of some, 3 for a close one.
+// Squares of the distances at which the shells of a row begin, and of the close ones' end and the radius.
+struct Distances {
+    double close2, shell2[ClusterList::shells], radius2;
+};
+
+// What a candidate is, in bits that add up without branches, which no processor foretells here: close; other, within reach; or of
+// the skin, with the number of its shell above, from 1 on.
+constexpr int32_t found_close = 1, found_other = 2, found_aside = 4, one_shell = 8;
+
+typedef int64_t LaneInts __attribute__((vector_size(lane_count * sizeof(int64_t))));
+typedef int32_t LaneKinds __attribute__((vector_size(lane_count * sizeof(int32_t))));
+
+// found[k]: of particle begin + k, by its distance to the nearest lane. (Four particles at a time: most runs are of a dozen or
+// so, of which longer vectors left half to single ones.) Writes up to a multiple of four.
 GP_MULTIVERSION void test_run(const double *__restrict x, const double *__restrict y, int64_t n, const LanesAt &at,
-                              double radius2, double close2, int32_t *__restrict found) {
-    const LanesAt own = at;
-#pragma omp simd
-    for (int64_t k = 0; k < n; ++k) {
-        double nearest = 1e300;
+                              const Distances &d, int32_t *__restrict found) {
+    for (int64_t k = 0; k < n; k += lane_count) {
+        Lanes xk, yk;
+        if (k + lane_count <= n) {
+            std::memcpy(&xk, x + k, sizeof xk);
+            std::memcpy(&yk, y + k, sizeof yk);
+        } else {
+            const LanePlaces places(k, n);
+            xk = places.load(x);
+            yk = places.load(y);
+        }
+        Lanes nearest = Lanes{} + 1e300;
         for (int l = 0; l < lane_count; ++l) {
-            const double dx = x[k] - own.x[l], dy = y[k] - own.y[l];
-            const double r2 = dx * dx + dy * dy;
+            const Lanes dx = xk - at.x[l], dy = yk - at.y[l];
+            const Lanes r2 = dx * dx + dy * dy;
             nearest = r2 < nearest ? r2 : nearest;
         }
-        found[k] = nearest < close2 ? 3 : (nearest < radius2 ? 1 : 0);
+        LaneInts kind = LaneInts{} + found_aside;
+        for (int s = 0; s < ClusterList::shells; ++s)
+            kind -= (nearest >= d.shell2[s]) * one_shell;
+        kind = nearest < d.shell2[0] ? LaneInts{} + found_other : kind;
+        kind = nearest < d.radius2 ? kind : LaneInts{};
+        kind = nearest < d.close2 ? LaneInts{} + found_close : kind;
+        const LaneKinds kinds = __builtin_convertvector(kind, LaneKinds);
+        std::memcpy(found + k, &kinds, sizeof kinds);
     }
 }
 
-// One cluster's row: close ones from the beginning of its room on, the others from its end down; then these move up.
+// One cluster's row: close ones from the beginning of its room on, those within reach from its end down, and aside those of the
+// skin.
 struct Row {
+    static constexpr int64_t most_aside = 1024; // of a row with more, the others count as within reach
     int32_t *close, *others;
+    int64_t aside = 0;
+    int32_t place_aside[most_aside], shell_aside[most_aside];
 
-    void add(int32_t j, int32_t found) {
-        *close = j;
-        close += found == 3;
-        others[-1] = j;
-        others -= found == 1;
+    Row(int32_t *begin, int32_t *end) : close(begin), others(end) {}
+
+    void add(int32_t j, int32_t n, int32_t *found) {
+        if (aside + n >= most_aside)
+            for (int32_t k = 0; k < n; ++k)
+                found[k] = found[k] & found_aside ? found_other : found[k];
+        for (int32_t k = 0; k < n; ++k) {
+            const int32_t kind = found[k];
+            *close = j + k;
+            close += kind & 1;
+            others[-1] = j + k;
+            others -= kind >> 1 & 1;
+            place_aside[aside] = j + k;
+            shell_aside[aside] = kind / one_shell;
+            aside += kind >> 2 & 1;
+        }
+    }
+
+    // Puts the others behind the close ones, then those of the skin, shell by shell. beyond[s]: how many are further away than
+    // the reach and s shells. Returns the row's end.
+    int32_t *settle(int32_t *end, int64_t (&beyond)[ClusterList::shells]) {
+        int32_t *next = close + (end - others);
+        if (close < others) // not where the room is full, or nothing at all
+            std::copy(others, end, close);
+        int32_t in_order[most_aside];
+        int64_t n = 0;
+        for (int32_t s = 0; s < ClusterList::shells; ++s) {
+            beyond[s] = aside - n;
+            for (int64_t k = 0; k < aside; ++k) {
+                in_order[n] = place_aside[k];
+                n += shell_aside[k] == s + 1;
+            }
+        }
+        return std::copy(in_order, in_order + aside, next);
     }
 };
 
@@ -148,11 +210,18 @@ bool look_through(const Particles &p, const Barriers &barriers, double tolerance
 
 } // namespace
 
-void find_clusters(const Particles &p, const CellGrid &grid, const Images &images, double radius, double close_radius,
-                   const Barriers &barriers, double tolerance, int threads, ClusterList &list) {
+void find_clusters(const Particles &p, const CellGrid &grid, const Images &images, double radius, double skin,
+                   double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list) {
     cut(p, grid, radius, threads, list);
     const int64_t count = static_cast<int64_t>(list.first.size()) - 1;
-    const double radius2 = radius * radius, close2 = close_radius * close_radius;
+    list.shell = skin / ClusterList::shells;
+    Distances distances{close_radius * close_radius, {}, radius * radius};
+    for (int s = 0; s < ClusterList::shells; ++s) {
+        const double begin =
+            (radius - skin + s * list.shell) * (1 + 1e-9); // no rounding puts what has weight behind it
+        distances.shell2[s] = begin * begin;
+        list.beyond[s].resize(count);
+    }
     list.start.resize(count + 1);
     list.close_stop.resize(count);
     list.stop.resize(count);
@@ -187,27 +256,27 @@ void find_clusters(const Particles &p, const CellGrid &grid, const Images &image
             }
             int32_t *const row_begin = list.index.data() + list.start[c];
             int32_t *const row_end = list.index.data() + list.start[c + 1];
-            Row row{row_begin, row_end};
+            Row row(row_begin, row_end);
             for_each_run(grid, images, box_of(p, first, last, radius), [&](int64_t from, int64_t to, int side) {
                 if (side >= 0) {
                     for (int64_t source = from; source < to; ++source)
                         if (const int32_t j = images.image_of(source, side); j >= 0) {
-                            test_run(p.x.data() + j, p.y.data() + j, 1, at, radius2, close2, found);
-                            row.add(j, found[0]);
+                            test_run(p.x.data() + j, p.y.data() + j, 1, at, distances, found);
+                            row.add(j, 1, found);
                         }
                     return;
                 }
                 for (int64_t j = from; j < to; j += chunk) {
                     const int64_t n = std::min(chunk, to - j);
-                    test_run(p.x.data() + j, p.y.data() + j, n, at, radius2, close2, found);
-                    for (int64_t k = 0; k < n; ++k)
-                        row.add(static_cast<int32_t>(j + k), found[k]);
+                    test_run(p.x.data() + j, p.y.data() + j, n, at, distances, found);
+                    row.add(static_cast<int32_t>(j), static_cast<int32_t>(n), found);
                 }
             });
             list.close_stop[c] = row.close - list.index.data();
-            list.stop[c] = list.close_stop[c] + (row_end - row.others);
-            if (row.close < row.others) // not where the row is full, or nothing at all
-                std::copy(row.others, row_end, row.close);
+            int64_t beyond[ClusterList::shells];
+            list.stop[c] = row.settle(row_end, beyond) - list.index.data();
+            for (int s = 0; s < ClusterList::shells; ++s) // as if fewer, where they are more than fit
+                list.beyond[s][c] = static_cast<uint16_t>(std::min<int64_t>(beyond[s], UINT16_MAX));
             if (!barriers.segments.empty())
                 list.partly_seen[c] = look_through(p, barriers, tolerance, c, list);
         }

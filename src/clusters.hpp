@@ -15,11 +15,17 @@
 namespace gp {
 
 struct ClusterList {
+    static constexpr int shells = 3; // of the skin
+
     // Cluster c holds the particles first[c] .. first[c + 1], and sees the particles and images index[start[c]] .. index[stop[c]],
-    // itself among them. Those that may collide with one of it come first, up to close_stop[c].
+    // itself among them. Those that may collide with one of it come first, up to close_stop[c]; then those within reach; then
+    // those of the skin, shell by shell: the last beyond[s][c] are further away than the reach and s shells, and weigh
+    // nothing before particles have moved by as much against each other.
     Field<int32_t> first;
     Field<int64_t> start, close_stop, stop;
     Field<int32_t> index;
+    Field<uint16_t> beyond[shells];
+    double shell = 0; // m, thickness
     Field<int32_t>
         cluster_of_block; // the first one of each block of particles; clusters do not reach over a block's end
 
@@ -37,10 +43,10 @@ struct Barriers {
     SegmentCells cells; // of those within the radius of the lists
 };
 
-// Cuts the sorted particles into clusters and finds, for each, the neighbours within `radius` of one of its particles; those
-// within `close_radius` of one come first. Pairs on both sides of one of `barriers` do not
+// Cuts the sorted particles into clusters and finds, for each, the neighbours within `radius`, reach and skin, of one of its
+// particles; those within `close_radius` of one come first. Pairs on both sides of one of `barriers` do not
 // see each other.
-void find_clusters(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+void find_clusters(const Particles &particles, const CellGrid &grid, const Images &images, double radius, double skin,
                    double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list);
 
 // Calls found(j) for the particles and images in the list of particle i's cluster that i sees: all within the radius, and

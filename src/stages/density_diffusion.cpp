@@ -69,15 +69,19 @@ void density_diffusion(World &world) {
     Particles &p = world.particles;
     const double c2 = world.constants.sound_speed * world.constants.sound_speed;
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
-        double lost = 0;
-        for (int64_t i = begin; i < end; ++i) {
-            if (p.cxx[i] == 0)
-                continue;
-            const double rest = world.material_of(i).density, after = p.density[i] + p.cxx[i];
-            lost += compression_energy(p.density[i] / rest, rest) - compression_energy(after / rest, rest); // over c0^2
-            p.density[i] = after;
+        Lanes lost{};
+        for (int64_t first = begin; first < end; first += lane_count) {
+            const LanePlaces places(first, end);
+            Lanes rest;
+            for (int l = 0; l < lane_count; ++l)
+                rest[l] = world.material_of(places.at[l]).density;
+            const Lanes before = places.load(p.density.data()), after = before + places.load(p.cxx.data());
+            const Lanes inverse = 1.0 / rest;
+            lost += places.own() * (compression_energy(before * inverse, rest) -
+                                    compression_energy(after * inverse, rest)); // over c0^2
+            places.store(p.density.data(), std::min(end, first + lane_count), after);
         }
-        world.sums[block].diffused = p.volume * c2 * lost;
+        world.sums[block].diffused = p.volume * c2 * sum_of(lost);
     });
 }
 

@@ -40,7 +40,7 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
     }
     const double inverse_radius = v.inverse_radius;
     Lanes wx{}, wy{}, tx{}, ty{}, pu{}, pv{};
-    for (int64_t k = v.clusters.start[cluster]; k < v.clusters.stop[cluster]; ++k) {
+    for (int64_t k = v.clusters.start[cluster], stop = v.clusters.stop(cluster); k < stop; ++k) {
         const int32_t j = v.clusters.index[k];
         const Lanes dx = x[j] - xi, dy = y[j] - yi;
         Lanes w = weight(dx * dx + dy * dy, inverse_radius);

@@ -38,21 +38,34 @@ struct Rows {
     GP_INLINE static int64_t ghost_count(const Contact &contact) { return contact.end - contact.begin; }
 };
 
+// What lies behind the shells that particles can have crossed by now.
+inline const uint16_t *entries_beyond(const World &world) {
+    const ClusterList &list = world.clusters;
+    for (int s = 0; s < ClusterList::shells; ++s)
+        if (world.shifted <= s * list.shell)
+            return list.beyond[s].data();
+    return nullptr;
+}
+
 // The clusters and their rows, as the pair loops see them.
 struct Clusters {
     const int32_t *first;
-    const int64_t *start, *close_stop, *stop;
+    const int64_t *start, *close_stop, *row_stop;
+    const uint16_t *beyond; // of each row: entries that have no weight yet; NULL: none
     const int32_t *index;
     const uint8_t *partly_seen; // NULL where no plate has material behind it
     const uint8_t *seen_by;
 
     explicit Clusters(const World &world)
         : first(world.clusters.first.data()), start(world.clusters.start.data()),
-          close_stop(world.clusters.close_stop.data()), stop(world.clusters.stop.data()),
-          index(world.clusters.index.data()),
+          close_stop(world.clusters.close_stop.data()), row_stop(world.clusters.stop.data()),
+          beyond(entries_beyond(world)), index(world.clusters.index.data()),
           partly_seen(world.clusters.partly_seen.empty() ? nullptr : world.clusters.partly_seen.data()),
           seen_by(world.clusters.seen_by.data()) {}
 
+    GP_INLINE int64_t stop(int64_t cluster) const {
+        return beyond ? row_stop[cluster] - beyond[cluster] : row_stop[cluster];
+    }
     GP_INLINE bool is_partly_seen(int64_t cluster) const { return partly_seen && partly_seen[cluster]; }
     // The weight of entry k, 0 in the lanes that do not see it.
     GP_INLINE Lanes seen(const Lanes &w, int64_t k) const { return seen_by_lanes(w, seen_by[k]); }

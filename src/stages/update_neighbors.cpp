@@ -75,7 +75,7 @@ void make_lists(World &world) {
         if (!world.colliding.empty())
             world.colliding.resize(world.particles.count + world.images.count);
     }
-    find_clusters(world.particles, world.grid, world.images, radius, close,
+    find_clusters(world.particles, world.grid, world.images, radius, world.skin, close,
                   world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads, world.clusters);
     if (c.scheme != Scheme::adjoint)
         find_neighbors(world.particles, world.clusters, radius, world.threads, world.neighbors);
