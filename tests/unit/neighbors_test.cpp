@@ -101,6 +101,10 @@ TEST(Neighbors, AgreeWithBruteForce) {
                     nearest = std::min(nearest, distance(world, i, clusters.index[k]));
                 EXPECT_LT(nearest, radius);
                 EXPECT_EQ(k < clusters.close_stop[c], nearest < close);
+                // Then shell by shell: what has no weight before particles have moved by as much.
+                for (int s = 0; s < ClusterList::shells; ++s)
+                    EXPECT_EQ(k >= clusters.stop[c] - clusters.beyond[s][c],
+                              nearest >= (world.constants.horizon + s * clusters.shell) * (1 + 1e-9));
             }
         // The rows of single particles hold the same.
         NeighborList rows;
