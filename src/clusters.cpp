@@ -92,8 +92,8 @@ typedef int32_t LaneKinds __attribute__((vector_size(lane_count * sizeof(int32_t
 
 // found[k]: of particle begin + k, by its distance to the nearest lane. (Four particles at a time: most runs are of a dozen or
 // so, of which longer vectors left half to single ones.) Writes up to a multiple of four.
-GP_MULTIVERSION void test_run(const double *__restrict x, const double *__restrict y, int64_t n, const LanesAt &at,
-                              const Distances &d, int32_t *__restrict found) {
+void test_run(const double *__restrict x, const double *__restrict y, int64_t n, const LanesAt &at, const Distances &d,
+              int32_t *__restrict found) {
     for (int64_t k = 0; k < n; k += lane_count) {
         Lanes xk, yk;
         if (k + lane_count <= n) {

@@ -30,7 +30,7 @@ struct View {
 };
 
 // How many partners each particle has. Returns the sum.
-GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end) {
+int64_t count_partners(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     const Lanes one = Lanes{} + 1.0;
     int64_t sum = 0;
@@ -59,7 +59,7 @@ GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end
 }
 
 // The velocity changes of the particles that have partners.
-GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
+void find_pushes(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     for (int64_t c = begin; c < end; ++c) {
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];

@@ -81,11 +81,11 @@ template <bool Penalty> GP_INLINE void force_clusters(const View &v, int64_t beg
     }
 }
 
-GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+void plain_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<false>(v, begin, end);
 }
 
-GP_MULTIVERSION void penalty_clusters(const View &v, int64_t begin, int64_t end) {
+void penalty_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<true>(v, begin, end);
 }
 

@@ -162,27 +162,27 @@ template <class Exchange> GP_INLINE void gradient_of_clusters(const View &v, int
     }
 }
 
-GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+void plain_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<NoExchange>(v, begin, end);
 }
 
-GP_MULTIVERSION void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<Exchange<true>>(v, begin, end);
 }
 
-GP_MULTIVERSION void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
+void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<Exchange<false>>(v, begin, end);
 }
 
-GP_MULTIVERSION void fluid_clusters(const View &v, int64_t begin, int64_t end) {
+void fluid_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<AndFluidity<NoExchange>>(v, begin, end);
 }
 
-GP_MULTIVERSION void fluid_exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+void fluid_exchanging_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<AndFluidity<Exchange<true>>>(v, begin, end);
 }
 
-GP_MULTIVERSION void fluid_exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
+void fluid_exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<AndFluidity<Exchange<false>>>(v, begin, end);
 }
 

@@ -169,19 +169,19 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
     sums = {sum_of(plastic), sum_of(internal), sum_of(damped)};
 }
 
-GP_MULTIVERSION void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<false, false>(world, one_material, begin, end, sums);
 }
 
-GP_MULTIVERSION void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<true, false>(world, one_material, begin, end, sums);
 }
 
-GP_MULTIVERSION void fluid_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void fluid_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<false, true>(world, one_material, begin, end, sums);
 }
 
-GP_MULTIVERSION void fluid_penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void fluid_penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<true, true>(world, one_material, begin, end, sums);
 }
 
