@@ -19,6 +19,8 @@ void Particles::allocate(int64_t n, const Optional &use) {
         syy.resize(size);
     if (use.stressed)
         stressed.resize(size);
+    if (use.bearing_flow)
+        bearing_flow.resize(size);
     if (use.densities) {
         rest.resize(size);
         inverse_rest.resize(size);
@@ -40,9 +42,9 @@ void Particles::make_room(int64_t images) {
     grow(column);
     // The gradient and its like are not read of neighbours, but their memory changes places with that of fields that are.
     for (Field<double> *field :
-         {&x,   &y,      &vx,     &vy,  &density,  &pressure, &sxx,          &sxy,      &lxx,
-          &lxy, &lyx,    &lyy,    &cxx, &cxy,      &cyx,      &cyy,          &syy,      &ax,
-          &ay,  &push_x, &push_y, &gyy, &stressed, &rest,     &inverse_rest, &fluidity, &fluid_seen})
+         {&x,      &y,   &vx,       &vy,   &density,      &pressure, &sxx,        &sxy,         &lxx, &lxy,
+          &lyx,    &lyy, &cxx,      &cxy,  &cyx,          &cyy,      &syy,        &ax,          &ay,  &push_x,
+          &push_y, &gyy, &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &bearing_flow})
         grow(*field);
 }
 
@@ -78,7 +80,8 @@ void Particles::give_back(bool stressed_in_shape) {
             hand_over(from, to);
     };
     give(flowing, ax);
-    give(bearing, ay);
+    if (ay.empty())
+        give(bearing.empty() ? bearing_flow : bearing, ay);
     give(crowding, cyx);
     give(carried, cyy);
     if (stressed_in_shape)

@@ -55,8 +55,11 @@ struct Particles {
     Field<double> push_x, push_y;         // m/s, by collisions and contacts with plates after that
 
     // Made anew, and over within the step: in the memory of fields that are made later.
-    Field<double> flowing;  // 1 at yield or without stress, else 0. From the stage flowing to gradient; then ax
-    Field<double> bearing;  // 1 under pressure, else 0; in gradient, with density diffusion or fluidity; then ay
+    Field<double> flowing; // 1 at yield or without stress, else 0. From the stage flowing to gradient; then ax
+    Field<double> bearing; // 1 under pressure, else 0; in gradient, with fluidity or several densities; then ay
+    // `flowing` under pressure, else 0: in gradient, with density diffusion of one density; then ay. With fluidity, too, in
+    // memory of its own.
+    Field<double> bearing_flow;
     Field<double> crowding; // sum of w where it flows, else 0. From gradient to density_of_spacing; then cyx
     Field<double>
         carried; // share of its stress that a particle near a plate carries. From gradient to density; then cyy
@@ -68,10 +71,11 @@ struct Particles {
 
     // Fields that only some scenes need.
     struct Optional {
-        bool stressed;  // penalty, but in the default scheme
-        bool fluidity;  // a material has one
-        bool densities; // density diffusion between materials of different density
-        bool shape;     // inverse shape tensor and the second row of sigma K^-1
+        bool stressed;     // penalty, but in the default scheme
+        bool fluidity;     // a material has one
+        bool bearing_flow; // density diffusion of one density beside fluidity
+        bool densities;    // density diffusion between materials of different density
+        bool shape;        // inverse shape tensor and the second row of sigma K^-1
         bool syy;
     };
     // Gives every field in use its size.

@@ -56,12 +56,12 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
         // copies what the next stages overwrite; takes the pushes' memory for the gradient before the step, until integrate
         {"keep_fields", t.particles, "a step that diverges is taken back", no_particles, keep_fields, nullptr, ""},
-        // reads velocity; writes ghost velocity
-        {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
-         stages::wall_velocity, in_reach, none_near},
         // reads pressure, stress; writes which particles flow, in the acceleration's memory
         {"flowing", t.particles, "densities are tied to each other and to the spacing where it flows", no_particles,
          stages::flowing, nullptr, ""},
+        // reads velocity, which particles flow; writes ghost velocity
+        {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
+         stages::wall_velocity, in_reach, none_near},
         // reads position, velocity; writes shape tensor, velocity gradient and, where it flows, number density; with density
         // diffusion also reads density, and writes what is exchanged: one loop over pairs for all
         {"gradient", t.particles, t.diffusion ? "particles interact; with the pair sums of density_diffusion"
@@ -218,7 +218,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                   t.diffusion ? "density_diffusion > 0; in the acceleration's memory"
                                   : t.fluid   ? "nonlocal_amplitude > 0; in the acceleration's memory"
                                               : "density_diffusion and nonlocal_amplitude are 0",
-                                  bytes_of(p.bearing)));
+                                  bytes_of_all(p.bearing, p.bearing_flow)));
     const bool exchanged = t.diffusion && !world.constants.one_density();
     entries.push_back(field_entry("rest_density", exchanged,
                                   !t.diffusion ? "density_diffusion is 0"

@@ -10,7 +10,7 @@
 namespace gp {
 
 int64_t Walls::bytes() const {
-    int64_t total = particles_of_ghost.bytes() + chains_.bytes() + cells_.bytes();
+    int64_t total = particles_of_ghost.bytes() + lanes.bytes() + chains_.bytes() + cells_.bytes();
     for (const Field<double> *field :
          {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_lean, &ghost_distance, &ghost_shift, &ghost_x,
           &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})

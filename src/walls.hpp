@@ -15,6 +15,7 @@
 #include "particles.hpp"
 #include "plate.hpp"
 #include "segment_cells.hpp"
+#include "wall_lanes.hpp"
 
 namespace gp {
 
@@ -61,6 +62,7 @@ struct Walls {
     Field<int32_t> ghost_of_contact; // rows of contacts
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
     std::vector<Contact> contacts;   // ordered by particle, then chain
+    WallLanes lanes;                 // both, four at a time
 
     const Plate &plate_of(int32_t facet) const { return plates[facets[facet].plate]; }
 

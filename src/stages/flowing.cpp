@@ -44,6 +44,7 @@ void flowing(World &world) {
         find_flowing<true>(world);
     else
         find_flowing<false>(world);
+    world.images.copy(world.particles.flowing);
 }
 
 } // namespace gp::stages

@@ -31,7 +31,7 @@ GP_INLINE double pace_of_ghosts(const Walls &w, const Contact &contact, const Ve
 
 FluidityView prepare_fluidity(World &world) {
     Particles &p = world.particles;
-    if (p.bearing.empty()) // no density diffusion
+    if (p.bearing.empty()) // no density diffusion between several densities
         hand_over(p.ay, p.bearing);
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {

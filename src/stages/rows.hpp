@@ -57,10 +57,7 @@ struct Clusters {
     GP_INLINE int64_t close_stop(int64_t cluster) const { return start[cluster] + close[cluster]; }
     GP_INLINE bool is_partly_seen(int64_t cluster) const { return partly_seen && partly_seen[cluster]; }
     // The weight of entry k, 0 in the lanes that do not see it.
-    GP_INLINE Lanes seen(const Lanes &w, int64_t k) const {
-        const unsigned lanes = seen_by[k];
-        return w * Lanes{double(lanes & 1), double(lanes >> 1 & 1), double(lanes >> 2 & 1), double(lanes >> 3 & 1)};
-    }
+    GP_INLINE Lanes seen(const Lanes &w, int64_t k) const { return seen_by_lanes(w, seen_by[k]); }
 };
 
 // Calls body(block, first, last) for the clusters first .. last of each block of particles.

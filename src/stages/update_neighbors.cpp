@@ -83,6 +83,7 @@ void make_lists(World &world) {
                               !by_number_density(c.scheme), world.threads);
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
+    world.walls.lanes.make(world.walls, world.clusters);
     if (c.scheme == Scheme::implicit)
         world.mirrors.find(world.walls, world.particles, world.grid, world.images,
                            mirror_reach * c.spacing + world.skin);

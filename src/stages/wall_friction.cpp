@@ -59,18 +59,23 @@ double elastic_rate(const World &world, const Contact &contact) {
 // surface. What stretches along the plate as well has less left to shear: of the deviator s at yield, its part s_nn across
 // the plate is the particle's own (the material's, not the wall's); with mu N in full, R90 of the collapse with a = 1.25 is
 // 24, 10 % too small at L/dl = 16, 32. Inside the yield surface it may shear until it is there.
-double rough_ratio(const World &world, const Contact &contact, double mu) {
-    const Particles &p = world.particles;
-    const int64_t i = contact.particle;
-    const Vector &n = world.walls.facets[contact.facet].segment.normal;
-    const double across = p.sxx[i] * (n.x() * n.x() - n.y() * n.y()) + 2 * p.sxy[i] * n.x() * n.y(); // s_nn
-    const double whole =
-        std::max(equivalent_stress({p.sxx[i], p.sxy[i]}), world.map_of(i).mu_s * p.pressure[i]); // |s| at yield
-    const double shear2 = whole * whole - across * across, normal = whole - mu * across;
-    if (normal <= 0)
-        return mu; // free of stress
-    return shear2 > 0 ? mu * std::sqrt(shear2) / normal : 0.0;
-}
+struct RoughShare {
+    double whole = 0, across = 0, shear = 0; // Pa: |s| at yield, s_nn, what is left to shear
+
+    RoughShare(const World &world, const Contact &contact) {
+        const Particles &p = world.particles;
+        const int64_t i = contact.particle;
+        const Vector &n = world.walls.facets[contact.facet].segment.normal;
+        across = p.sxx[i] * (n.x() * n.x() - n.y() * n.y()) + 2 * p.sxy[i] * n.x() * n.y();
+        whole = std::max(equivalent_stress({p.sxx[i], p.sxy[i]}), world.map_of(i).mu_s * p.pressure[i]);
+        const double shear2 = whole * whole - across * across;
+        shear = shear2 > 0 ? std::sqrt(shear2) : 0.0;
+    }
+    double of(double mu) const {
+        const double normal = whole - mu * across;
+        return normal > 0 ? mu * shear / normal : mu; // mu: free of stress
+    }
+};
 
 template <bool Fluid> void brake_contacts(World &world) {
     const Particles &p = world.particles;
@@ -84,9 +89,11 @@ template <bool Fluid> void brake_contacts(World &world) {
         const int64_t i = contact.particle;
         const Segment &s = facet.segment;
         const double normal = s.normal.x() * contact.force_x + s.normal.y() * contact.force_y;
+        if (normal <= 0)
+            continue;
         const double slip =
             s.tangent.dot(Vector(p.vx[i], p.vy[i]) - world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]}));
-        if (slip == 0 || normal <= 0)
+        if (slip == 0)
             continue;
         const double direction = slip > 0 ? 1 : -1;
         // A particle without stress of its own is under what its plate presses it with.
@@ -94,9 +101,9 @@ template <bool Fluid> void brake_contacts(World &world) {
         const double once = normal * world.clock.dt / world.material_of(i).density; // m/s, of friction 1
         const ReturnMap &law = world.map_of(i);
         const SurfaceRate rate = surface_rate(world, contact, direction);
-        const auto ratio_of = [&](double mu) {
-            return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(*facet.spec, mu);
-        };
+        const double half = law.rate_factor * root(pressure);
+        const RoughShare share(world, contact);
+        const auto ratio_of = [&](double mu) { return rough ? share.of(mu) : wall_friction_bound(*facet.spec, mu); };
         const bool fluid = Fluid && world.is_fluid(i) && p.pressure[i] > 0;
         // Between plate and particle: of the fluidity, and of the plastic rate.
         const double between = fluid ? (facet.spec->fluidity == GP_FLUIDITY_ZERO ? 0.5 : 1.0) * p.fluidity[i] : 0.0;
@@ -107,7 +114,7 @@ template <bool Fluid> void brake_contacts(World &world) {
         for (int pass = 0; pass < 2; ++pass) {
             const double per_mu = once * ratio_of(mu) / std::max(mu, 1e-300);
             mu = fluid ? friction_left(law, between, mean_rate, std::abs(slip), per_mu)
-                       : friction_left(law, rate, std::abs(slip), per_mu, pressure);
+                       : friction_left_by(law, half, rate, std::abs(slip), per_mu);
         }
         const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
         if (stop <= 0)

@@ -17,7 +17,7 @@ LAYERS = [
     ["plate"],
     ["facet_chains"],
     ["sight"],
-    ["mps_operators", "operators", "walls"],
+    ["mps_operators", "operators", "walls", "wall_lanes"],
     ["mirrors"],
     ["world", "ledger", "undo", "volume_drift"],
     ["stages/*"],
