@@ -40,12 +40,16 @@ struct SharedWork {
 };
 void share_out(const SharedWork &work, int threads);
 
-// Calls body(block, begin, end) for the blocks of n items. body must not throw: nobody would catch it in another thread.
-template <int64_t Size = block_size, class Body> void for_each_block(int threads, int64_t n, const Body &body) {
-    const int64_t blocks = block_count<Size>(n);
+// Calls body(block, begin, end) for `count` chosen blocks of n items, for all where `chosen` is NULL. body must not throw: nobody
+// would catch it in another thread.
+template <int64_t Size = block_size, class Body>
+void for_each_chosen_block(int threads, int64_t n, const int32_t *chosen, int64_t count, const Body &body) {
+    const int64_t blocks = chosen ? count : block_count<Size>(n);
     const auto run = [&](int64_t begin, int64_t end) {
-        for (int64_t block = begin; block < end; ++block)
+        for (int64_t k = begin; k < end; ++k) {
+            const int64_t block = chosen ? chosen[k] : k;
             body(block, block * Size, std::min(n, (block + 1) * Size));
+        }
     };
     // A thread with less than this to do costs more than it brings.
     constexpr int64_t least_blocks = 8;
@@ -61,6 +65,11 @@ template <int64_t Size = block_size, class Body> void for_each_block(int threads
     share_out({[](const void *it, int64_t begin, int64_t end) { (*static_cast<const Run *>(it))(begin, end); }, &run,
                blocks, std::max<int64_t>(1, blocks / (useful * turns))},
               useful);
+}
+
+// For all of them.
+template <int64_t Size = block_size, class Body> void for_each_block(int threads, int64_t n, const Body &body) {
+    for_each_chosen_block<Size>(threads, n, nullptr, 0, body);
 }
 
 } // namespace gp

@@ -30,6 +30,12 @@ void Particles::allocate(int64_t n, const Optional &use) {
     if (use.fluidity)
         for (Field<double> *field : {&fluidity, &fluid_seen, &fluid_pull, &fluid_pace})
             field->resize(size);
+    if (use.sleep) {
+        repose.resize(size);
+        asleep.resize(size);
+        scratch_repose_.resize(size);
+        scratch_uint8_.resize(size);
+    }
     scratch_int64_.resize(size);
     scratch_int32_.resize(size);
 }
@@ -45,6 +51,8 @@ void Particles::make_room(int64_t images) {
     };
     grow(column);
     grow(scratch_int32_);
+    grow(asleep);
+    grow(scratch_uint8_);
     // The gradient and its like are not read of neighbours, but swap their memory with fields that are.
     for (Field<double> *field : {&x,
                                  &y,
@@ -87,6 +95,12 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
     // The gradient is made anew in each step, but readers may ask for it between a reorder and the next one.
     for (Field<double> *field :
          {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &syy, &fluidity, &lxx, &lxy, &lyx, &lyy})
+        gather(*field, scratch_double_);
+    if (repose.empty())
+        return;
+    gather(repose, scratch_repose_);
+    gather(asleep, scratch_uint8_);
+    for (Field<double> *field : {&gxx, &gxy, &gyy, &stressed}) // what sleeps does not make them anew
         gather(*field, scratch_double_);
 }
 

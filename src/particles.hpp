@@ -23,6 +23,15 @@ template <class T> struct CacheLineAllocator {
 
 template <class T> using Field = std::vector<T, CacheLineAllocator<T>>;
 
+// What a particle remembers so that it can be told whether it rests (stages/sleep.cpp). Single precision does: it is compared with
+// hundredths.
+struct Repose {
+    float quiet_for = 0;                  // s, that it has been quiet
+    float way_x = 0, way_y = 0;           // m, gone since
+    float pressure = 0, sxx = 0, sxy = 0; // Pa, when that began
+    float fluidity = 0;                   // 1/s, likewise
+};
+
 struct Particles {
     int64_t count = 0;
     double volume = 0; // m2, spacing^2, of every particle
@@ -36,6 +45,9 @@ struct Particles {
     Field<double> pressure; // Pa
     Field<double> sxx, sxy; // Pa, deviatoric stress
     Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
+
+    Field<Repose> repose;  // only with gp_config.sleep
+    Field<uint8_t> asleep; // 1 or 0, likewise; the inverse shape tensor and `stressed` of what sleeps are carried, too
 
     Field<double> fluidity; // 1/s, g; only where a material has one (material/fluidity.hpp)
 
@@ -62,6 +74,7 @@ struct Particles {
         bool carried;  // plates, but by number density
         bool shape;    // inverse shape tensor and the second row of sigma K^-1
         bool syy;
+        bool sleep;
     };
     // Gives every field in use its size.
     void allocate(int64_t n, const Optional &use);
@@ -74,13 +87,16 @@ struct Particles {
 
     int64_t scratch_bytes() const {
         return static_cast<int64_t>((scratch_double_.capacity() + scratch_int64_.capacity()) * 8 +
-                                    scratch_int32_.capacity() * 4);
+                                    scratch_int32_.capacity() * 4 + scratch_repose_.capacity() * sizeof(Repose) +
+                                    scratch_uint8_.capacity());
     }
 
 private:
     Field<double> scratch_double_;
     Field<int64_t> scratch_int64_;
     Field<int32_t> scratch_int32_;
+    Field<Repose> scratch_repose_; // with sleep
+    Field<uint8_t> scratch_uint8_;
 };
 
 } // namespace gp

@@ -4,7 +4,7 @@
 #include <array>
 #include <initializer_list>
 
-#include "parallel.hpp"
+#include "awake.hpp"
 
 namespace gp {
 
@@ -76,7 +76,7 @@ void keep_fields(World &world) {
         start.copied[k].resize(world.particles.count);
     for (std::size_t k = 0; k < made.size(); ++k)
         start.made[k].resize(made[k]->size()); // with the places of images
-    for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (std::size_t k = 0; k < changed.size(); ++k)
             std::copy(changed[k]->data() + begin, changed[k]->data() + end, start.copied[k].data() + begin);
     });
@@ -90,8 +90,10 @@ void undo_step(World &world, UndoneOrder order) {
     if (start.fields_kept) {
         const auto changed = fields_changed_in_place(world);
         const auto made = fields_made_anew(world);
-        for (std::size_t k = 0; k < changed.size(); ++k)
-            std::copy(start.copied[k].begin(), start.copied[k].end(), changed[k]->begin());
+        for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
+            for (std::size_t k = 0; k < changed.size(); ++k)
+                std::copy(start.copied[k].data() + begin, start.copied[k].data() + end, changed[k]->data() + begin);
+        });
         for (std::size_t k = 0; k < made.size(); ++k)
             made[k]->swap(start.made[k]);
         const Particles &p = world.particles;

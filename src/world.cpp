@@ -17,7 +17,8 @@ std::unique_ptr<World> make_world(const Scene &scene) {
     p.allocate(scene.particle_count(),
                {c.penalty > 0, !by_number_density(c.scheme), scene.config().density_diffusion > 0 || c.fluid, c.fluid,
                 !scene.plates().empty() && !by_number_density(c.scheme), c.scheme != Scheme::paper_local,
-                by_number_density(c.scheme)});
+                by_number_density(c.scheme), scene.config().sleep == 1});
+    world->sleep.in_use = scene.config().sleep == 1;
     const std::vector<InitialStress> stress = scene.initial_stress(c);
     for (int64_t i = 0; i < p.count; ++i) {
         p.id[i] = i;

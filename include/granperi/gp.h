@@ -177,6 +177,8 @@ typedef struct gp_config {
                                     is refused [0] */
     int32_t retry_halvings;      /* a step that diverges is taken anew from where it began in two halves, these in halves
                                     again and so on, up to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0] */
+    int32_t sleep;               /* 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in
+                                    every step. Only with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0] */
 } gp_config;
 
 /* Fills *config with the defaults of the preset. size: sizeof(gp_config). */
@@ -473,7 +475,7 @@ typedef struct gp_state {
     int64_t step;         /* steps taken */
     double dt;            /* s, last time step */
     int64_t n_particles;
-    int64_t n_awake;      /* particles that take part in the work: all of them in this version */
+    int64_t n_awake;      /* particles that take part in the work: all of them but for those that sleep (gp_config.sleep) */
     /* Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals
      * kinetic + potential + elastic + dissipated + plate_work + energy_error. */
     double kinetic;

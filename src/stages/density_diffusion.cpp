@@ -11,8 +11,8 @@
 // its density took the light ones beside it below zero).
 #include <algorithm>
 
+#include "awake.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/density_exchange.hpp"
 #include "stages/stages.hpp"
 
@@ -27,7 +27,7 @@ ExchangeView prepare_exchange(World &world) {
                                  [&](int32_t material) { return c.materials[material].density == first; });
     // sigma K^-1 is made later in the step: until then it holds what is needed here.
     Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.cyx, &inverse_rest = p.cyy;
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);
             excess[i] = p.density[i] - m.density;
@@ -59,7 +59,7 @@ ExchangeView prepare_exchange(World &world) {
 void density_diffusion(World &world) {
     Particles &p = world.particles;
     const double c2 = world.constants.sound_speed * world.constants.sound_speed;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double lost = 0;
         for (int64_t i = begin; i < end; ++i) {
             if (p.cxx[i] == 0)

@@ -21,8 +21,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -39,7 +39,7 @@ void density_of_spacing(World &world) {
     Particles &p = world.particles;
     const double inverse = 1.0 / world.constants.lattice.number_density;
     const double strains = world.clock.dt / spacing_strain;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double lost = 0;
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);

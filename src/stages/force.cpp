@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"
-#include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -190,12 +190,10 @@ void force(World &world) {
                             walls.ghost_ayy.data(),
                             walls.ghost_of_contact.data(),
                             1.0 / c.horizon};
-        for_each_block<ghost_block_size>(
-            world.threads, static_cast<int64_t>(walls.contacts.size()),
-            [&](int64_t, int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
+        for_each_awake_contact_run(world, [&](int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
     }
     const auto clusters = c.penalty > 0 ? penalty_clusters : plain_clusters;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         clusters(view, world.clusters.cluster_of_block[block], world.clusters.cluster_of_block[block + 1]);
         double power = 0, acceleration2 = 0;
         for (int64_t i = begin; i < end; ++i) {

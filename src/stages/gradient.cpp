@@ -208,7 +208,7 @@ void gradient(World &world) {
         exchange.fluidity = prepare_fluidity(world);
     const View view = view_of(world, exchange);
     const ClusterLoop clusters = world.constants.fluid ? fluid_clusters : plain_clusters;
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
 }
 
 void gradient_and_exchange(World &world) {
@@ -217,7 +217,7 @@ void gradient_and_exchange(World &world) {
         exchange.fluidity = prepare_fluidity(world);
     const View view = view_of(world, exchange);
     const ClusterLoop clusters = exchanging_loop(exchange.one_density, world.constants.fluid);
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
 }
 
 } // namespace gp::stages

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "stages/push.hpp"
 #include "stages/stages.hpp"
 #include "stages/wall_law.hpp"
@@ -35,7 +36,7 @@ double friction_of_blow(const World &world, const Contact &contact, double appro
 void wall_contact(World &world) {
     const Particles &p = world.particles;
     const double nearest = contact_distance * world.constants.spacing;
-    for (const Contact &contact : world.walls.contacts) {
+    for (const Contact &contact : AwakeContacts(world)) {
         const Segment &s = world.walls.facets[contact.facet].segment;
         const int64_t i = contact.particle;
         const Vector at = place_over(world, contact);

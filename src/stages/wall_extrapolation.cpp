@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "kernel.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -123,7 +123,7 @@ template <bool Fluid> bool flows_before(const World &world, const GhostRow &row)
 template <bool Sheared, bool Fluid> void extrapolate_velocity(World &world) {
     Walls &w = world.walls;
     const View view(world);
-    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_awake_ghost_run(world, [&](int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const int32_t facet = w.ghost_facet[k];
             const Vector at(w.ghost_x[k], w.ghost_y[k]), own = w.velocity_at(facet, at);
@@ -174,7 +174,7 @@ template <bool Deviatoric> void extrapolate_stress(World &world) {
     const Constants &c = world.constants;
     const View view(world);
     const double inverse_moment = 1.0 / c.lattice.second_moment;
-    for_each_block<ghost_block_size>(world.threads, w.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_awake_ghost_run(world, [&](int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Vector n(w.ghost_nx[k], w.ghost_ny[k]);
             WallStressSums sums;

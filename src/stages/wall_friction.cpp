@@ -4,6 +4,7 @@
 // A stress or a stress ratio carried on through the surface by ghosts, and the zero-energy penalty towards them, braked a
 // sliding layer of 2, 3, 6, 10 rows with 1.11, 1.14, 1.09, 1.05 of mu times its weight, and put 18 % too much on the rough walls
 // of a silo; the run-out of a collapse erred by 15 % at L/dl = 32 for it, and depended on the horizon.
+#include "awake.hpp"
 #include "stages/push.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -76,7 +77,7 @@ template <bool Fluid> void brake_contacts(World &world) {
     const Particles &p = world.particles;
     const bool sticks =
         world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
-    for (const Contact &contact : world.walls.contacts) {
+    for (const Contact &contact : AwakeContacts(world)) {
         const Facet &facet = world.walls.facets[contact.facet];
         const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
         if (facet.spec->friction == GP_WALL_FREE_SLIP || (rough && sticks))
