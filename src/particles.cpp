@@ -100,8 +100,6 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
         return;
     gather(repose, scratch_repose_);
     gather(asleep, scratch_uint8_);
-    for (Field<double> *field : {&gxx, &gxy, &gyy, &stressed}) // what sleeps does not make them anew
-        gather(*field, scratch_double_);
 }
 
 } // namespace gp

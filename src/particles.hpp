@@ -30,6 +30,8 @@ struct Repose {
     float way_x = 0, way_y = 0;           // m, gone since
     float pressure = 0, sxx = 0, sxy = 0; // Pa, when that began
     float fluidity = 0;                   // 1/s, likewise
+    double gxx = 0, gxy = 0, gyy = 0;     // 1/m2, the inverse shape tensor, and
+    double stressed = 0;                  // the share of the penalty: of what is quiet, to stay so while it sleeps
 };
 
 struct Particles {
@@ -47,7 +49,7 @@ struct Particles {
     Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
 
     Field<Repose> repose;  // only with gp_config.sleep
-    Field<uint8_t> asleep; // 1 or 0, likewise; the inverse shape tensor and `stressed` of what sleeps are carried, too
+    Field<uint8_t> asleep; // 1 or 0, likewise
 
     Field<double> fluidity; // 1/s, g; only where a material has one (material/fluidity.hpp)
 

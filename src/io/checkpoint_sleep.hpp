@@ -15,8 +15,7 @@ namespace gp::io {
 
 struct SleepTable {
     std::vector<uint8_t> asleep;
-    std::vector<double> quiet_for, way_x, way_y, pressure, sxx, sxy, fluidity; // since it is quiet
-    std::vector<double> gxx, gxy, gyy, stressed;                               // of what sleeps, else 0
+    std::vector<double> quiet_for, way_x, way_y, pressure, sxx, sxy, fluidity, gxx, gxy, gyy, stressed; // Repose
     std::vector<int64_t> load_id;
     std::vector<int32_t> load_plate;
     std::vector<double> load_x, load_y, load_couple;
@@ -48,8 +47,7 @@ inline void write_sleep(CheckpointWriter &file, const World &world) {
     SleepTable t;
     for (int64_t i = 0; i < p.count; ++i) {
         const Repose &r = p.repose[i];
-        const bool asleep = p.asleep[i] != 0;
-        t.asleep.push_back(asleep);
+        t.asleep.push_back(p.asleep[i]);
         t.quiet_for.push_back(r.quiet_for);
         t.way_x.push_back(r.way_x);
         t.way_y.push_back(r.way_y);
@@ -57,10 +55,10 @@ inline void write_sleep(CheckpointWriter &file, const World &world) {
         t.sxx.push_back(r.sxx);
         t.sxy.push_back(r.sxy);
         t.fluidity.push_back(r.fluidity);
-        t.gxx.push_back(asleep ? p.gxx[i] : 0);
-        t.gxy.push_back(asleep ? p.gxy[i] : 0);
-        t.gyy.push_back(asleep ? p.gyy[i] : 0);
-        t.stressed.push_back(asleep && !p.stressed.empty() ? p.stressed[i] : 0);
+        t.gxx.push_back(r.gxx);
+        t.gxy.push_back(r.gxy);
+        t.gyy.push_back(r.gyy);
+        t.stressed.push_back(r.stressed);
     }
     for (const MeanLoad &load : world.sleep.loads) {
         t.load_id.push_back(load.id);
@@ -92,15 +90,18 @@ inline void read_sleep(CheckpointReader &file, World &world) {
         require(t.asleep[i] <= 1, "asleep is neither 0 nor 1");
         require(!t.asleep[i] || (p.vx[i] == 0 && p.vy[i] == 0), "a particle that sleeps and moves");
         p.asleep[i] = t.asleep[i];
-        p.repose[i] = {static_cast<float>(t.quiet_for[i]), static_cast<float>(t.way_x[i]),
-                       static_cast<float>(t.way_y[i]),     static_cast<float>(t.pressure[i]),
-                       static_cast<float>(t.sxx[i]),       static_cast<float>(t.sxy[i]),
-                       static_cast<float>(t.fluidity[i])};
-        p.gxx[i] = t.gxx[i];
-        p.gxy[i] = t.gxy[i];
-        p.gyy[i] = t.gyy[i];
-        if (!p.stressed.empty())
-            p.stressed[i] = t.stressed[i];
+        Repose &r = p.repose[i];
+        r.quiet_for = static_cast<float>(t.quiet_for[i]);
+        r.way_x = static_cast<float>(t.way_x[i]);
+        r.way_y = static_cast<float>(t.way_y[i]);
+        r.pressure = static_cast<float>(t.pressure[i]);
+        r.sxx = static_cast<float>(t.sxx[i]);
+        r.sxy = static_cast<float>(t.sxy[i]);
+        r.fluidity = static_cast<float>(t.fluidity[i]);
+        r.gxx = t.gxx[i];
+        r.gxy = t.gxy[i];
+        r.gyy = t.gyy[i];
+        r.stressed = t.stressed[i];
     }
     const std::size_t loads = t.load_id.size();
     require(t.load_plate.size() == loads && t.load_x.size() == loads && t.load_y.size() == loads &&

@@ -248,13 +248,11 @@ void find_reached(World &world) {
 }
 
 void begin_anew(const Particles &p, int64_t i, Repose &repose) {
-    repose = {0,
-              0,
-              0,
-              static_cast<float>(p.pressure[i]),
-              static_cast<float>(p.sxx[i]),
-              static_cast<float>(p.sxy[i]),
-              p.fluidity.empty() ? 0.0f : static_cast<float>(p.fluidity[i])};
+    repose.quiet_for = repose.way_x = repose.way_y = 0;
+    repose.pressure = static_cast<float>(p.pressure[i]);
+    repose.sxx = static_cast<float>(p.sxx[i]);
+    repose.sxy = static_cast<float>(p.sxy[i]);
+    repose.fluidity = p.fluidity.empty() ? 0.0f : static_cast<float>(p.fluidity[i]);
 }
 
 // Brings what the particles of a block remember up to this step. Returns whether one of them has not been quiet for long enough.
@@ -400,17 +398,38 @@ void add_held_loads(World &world) {
     }
 }
 
+void remember_shape(World &world) {
+    Particles &p = world.particles;
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+        if (world.sleep.restless[block])
+            return;
+        for (int64_t i = begin; i < end; ++i) {
+            p.repose[i].gxx = p.gxx[i];
+            p.repose[i].gxy = p.gxy[i];
+            p.repose[i].gyy = p.gyy[i];
+        }
+    });
+}
+
 void hold_stress(World &world) {
     Particles &p = world.particles;
-    const Sleep &s = world.sleep;
-    for (std::size_t k = static_cast<std::size_t>(s.awake); k < s.lit.size(); ++k)
-        for_each_of(world, s.lit[k], [&](int64_t i) {
-            const double xx = p.sxx[i] - p.pressure[i], xy = p.sxy[i], yy = -p.sxx[i] - p.pressure[i];
-            p.cxx[i] = xx * p.gxx[i] + xy * p.gxy[i];
-            p.cxy[i] = xx * p.gxy[i] + xy * p.gyy[i];
-            p.cyx[i] = xy * p.gxx[i] + yy * p.gxy[i];
-            p.cyy[i] = xy * p.gxy[i] + yy * p.gyy[i];
-        });
+    const bool penalty = !p.stressed.empty();
+    for_each_seen_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+        if (world.sleep.asleep[block])
+            for (int64_t i = begin; i < end; ++i) {
+                const Repose &own = p.repose[i];
+                const double xx = p.sxx[i] - p.pressure[i], xy = p.sxy[i], yy = -p.sxx[i] - p.pressure[i];
+                p.cxx[i] = xx * own.gxx + xy * own.gxy;
+                p.cxy[i] = xx * own.gxy + xy * own.gyy;
+                p.cyx[i] = xy * own.gxx + yy * own.gxy;
+                p.cyy[i] = xy * own.gxy + yy * own.gyy;
+                if (penalty)
+                    p.stressed[i] = own.stressed;
+            }
+        else if (penalty && !world.sleep.restless[block])
+            for (int64_t i = begin; i < end; ++i)
+                p.repose[i].stressed = p.stressed[i];
+    });
 }
 
 } // namespace gp::stages

@@ -77,7 +77,9 @@ void sleep(World &world);
 void wake_all(World &world);
 // The loads of what sleeps on the plates.
 void add_held_loads(World &world);
-// sigma K^-1 of what sleeps and is seen by what is awake.
+// Before and after the stress: keep what is needed of what is quiet when it sleeps; after it also sigma K^-1 of what sleeps and is
+// seen.
+void remember_shape(World &world);
 void hold_stress(World &world);
 // The part of account that the next step's size follows from; also run before the first step.
 void measure_velocities(World &world);

@@ -195,6 +195,8 @@ void stress(World &world) {
     const std::vector<int32_t> &materials = world.constants.body_material;
     const bool one_material =
         std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });
+    if (world.sleep.may_rest)
+        remember_shape(world);
     for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         StressSums of_block;
         rows(world, one_material, begin, end, of_block);
@@ -203,7 +205,7 @@ void stress(World &world) {
         sums.bulk = p.volume * of_block.damped * world.clock.dt;
         sums.internal_power = p.volume * of_block.internal;
     });
-    if (world.sleep.some)
+    if (world.sleep.may_rest)
         hold_stress(world);
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.constants.penalty > 0)
