@@ -1,7 +1,8 @@
 // Who rests and who wakes (gp_config.sleep).
 //
 // A particle is quiet from the moment on at which it has last gone more than `quiet_way` within `quiet_spans` sqrt(dl / g), or
-// the mean stress of its block of 64 has last changed by more than `quiet_stress` of itself and of the weight of a spacing since.
+// the mean stress of its block of 64 has last changed by more than `quiet_stress` of itself and of the weight of a spacing since,
+// or the block's mean velocity has been such that a wave of half that stress would go out from it if it stopped.
 // A block in which one has been quiet for less than that time is restless. What sees a restless block, or a ghost of a plate that acts, is computed, and
 // nothing else: it is left out of the stages, at rest, with the stress that it has. Between a restless block and one that sleeps
 // there is a ring of blocks as wide as particles see, horizon and skin; a wave takes several steps through it, each of which looks
@@ -21,7 +22,7 @@ namespace gp::stages {
 
 namespace {
 
-constexpr double quiet_way = 0.02;    // dl
+constexpr double quiet_way = 0.05;    // dl
 constexpr double quiet_stress = 0.02; // of mean pressure and rho g dl
 constexpr double quiet_spans = 8;     // sqrt(dl / g)
 constexpr double quiet_waves = 10;    // and so many times what a wave needs for the way that particles see
@@ -263,6 +264,7 @@ bool is_restless(World &world, int64_t begin, int64_t end) {
     const auto dt = static_cast<float>(world.clock.dt), enough = static_cast<float>(quiet_time(c));
     const auto way = static_cast<float>(quiet_way * c.spacing), fading = dt / enough;
     double pressure = 0, change = 0, change_xx = 0, change_xy = 0, weight = 0, fluidity = 0, fluidity_before = 0;
+    double momentum_x = 0, momentum_y = 0; // kg/m3 m/s
     float shortest = enough;
     for (int64_t i = begin; i < end; ++i) {
         Repose &repose = p.repose[i];
@@ -276,15 +278,19 @@ bool is_restless(World &world, int64_t begin, int64_t end) {
         change += p.pressure[i] - repose.pressure;
         change_xx += p.sxx[i] - repose.sxx;
         change_xy += p.sxy[i] - repose.sxy;
-        weight += world.material_of(i).density;
+        const double density = world.material_of(i).density;
+        weight += density;
+        momentum_x += density * p.vx[i];
+        momentum_y += density * p.vy[i];
         if (fluid) {
             fluidity += p.fluidity[i];
             fluidity_before += repose.fluidity;
         }
     }
     const double most = quiet_stress * (pressure + weight * c.gravity.norm() * c.spacing);
+    const double blow = c.wave_speed * std::hypot(momentum_x, momentum_y); // the stress of the wave when it stops
     const bool grows = fluidity > (1 + quiet_growth) * fluidity_before;
-    if (grows || !(std::abs(change) <= most) || !(std::hypot(change_xx, change_xy) <= most)) {
+    if (grows || !(blow <= 0.5 * most) || !(std::abs(change) <= most) || !(std::hypot(change_xx, change_xy) <= most)) {
         for (int64_t i = begin; i < end; ++i)
             begin_anew(p, i, p.repose[i]);
         return true;

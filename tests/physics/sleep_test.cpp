@@ -321,7 +321,7 @@ TEST(Sleep, ThreadsDoNotChangeTheBits) {
     std::vector<double> x[2], p[2];
     for (const int threads : {1, 4}) {
         PartlyAsleep bed(1, threads);
-        bed.sim.run(1.2);
+        bed.sim.run(1.6);
         EXPECT_LT(bed.sim.state().n_awake, 0.8 * double(bed.sim.state().n_particles));
         x[threads == 4] = bed.sim.field(GP_FIELD_X);
         p[threads == 4] = bed.sim.field(GP_FIELD_PRESSURE);
@@ -335,7 +335,7 @@ TEST(Sleep, GoesOnFromAFile) {
     const TemporaryDirectory directory("sleep");
     const std::string path = directory.path() + "/saved";
     PartlyAsleep bed(1);
-    bed.sim.run(1.2);
+    bed.sim.run(1.6);
     EXPECT_LT(bed.sim.state().n_awake, bed.sim.state().n_particles);
     for (int k = 0; k < 3; ++k) {
         ASSERT_EQ(gp_save(bed.sim, path.c_str()), GP_OK) << gp_last_error();
