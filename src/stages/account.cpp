@@ -115,7 +115,7 @@ template <bool Adjoint> void close_books(World &world) {
     double contact_power = 0, plate_power = 0;
     if (world.sleep.some)
         add_held_loads(world);
-    for (const Contact &contact : AwakeContacts(world)) {
+    for_each_awake_contact(world, [&](const Contact &contact) {
         const int64_t i = contact.particle;
         const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
         world.walls.add_load(contact.facet, {p.x[i], p.y[i]}, reaction);
@@ -124,7 +124,7 @@ template <bool Adjoint> void close_books(World &world) {
         contact_power += p.volume * (contact.ghost_power + contact.power);
         plate_power -= reaction.dot(world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]})) -
                        p.volume * contact.couple * plate.motion().omega;
-    }
+    });
     for (Plate &plate : world.walls.plates) {
         plate.impulse += dt * plate.force;
         plate.impulse_torque += dt * plate.torque_pivot;

@@ -303,14 +303,14 @@ void average_loads(World &world) {
     const double volume = world.particles.volume;
     const double share = std::min(1.0, world.clock.dt / (mean_spans * fall_time(world.constants)));
     const Contact *const first = world.walls.contacts.data();
-    for (const Contact &contact : AwakeContacts(world)) {
+    for_each_awake_contact(world, [&](const Contact &contact) {
         const auto k = static_cast<std::size_t>(&contact - first);
         MeanLoad &load = s.loads[k];
         load.x += share * (s.pushed[k].x() - volume * contact.force_x - load.x);
         load.y += share * (s.pushed[k].y() - volume * contact.force_y - load.y);
         load.couple += share * (-volume * contact.couple - load.couple);
         s.pushed[k] = Vector::Zero();
-    }
+    });
 }
 
 // A block comes to rest: what is left of its motion is lost. Returns the energy, J/m.
