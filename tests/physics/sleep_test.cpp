@@ -1,6 +1,5 @@
 // What rests is left out of the work (gp_config.sleep), and nothing else changes: what moves it wakes it in time.
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "../support/directory.hpp"
@@ -48,7 +47,7 @@ double largest_difference(const std::vector<double> &a, const std::vector<double
 // A deposit falls asleep as a whole, after some 8 sqrt(dl / g) of rest, and is what it would be without: up to then the bits are
 // the same, from then on what would still creep has stopped.
 TEST(Sleep, LeavesADepositAsItIs) {
-    for (const uint64_t seed : {1, 2, 3}) {
+    for (const uint64_t seed : {1, 2}) {
         gp_state end[2];
         for (const int32_t sleep : {0, 1}) {
             gp_config c = sleeping(Collapse::length / 24, sleep);
@@ -59,7 +58,7 @@ TEST(Sleep, LeavesADepositAsItIs) {
             sim.add(floor_at(0, -0.4, 0.4));
             sim.run(0.2);
             EXPECT_EQ(sim.state().n_awake, sim.state().n_particles);
-            sim.run(2);
+            sim.run(1.5);
             end[sleep] = sim.state();
             const double weight = 1550 * 9.81 * Collapse::length * Collapse::height;
             EXPECT_NEAR(sim.load(0).fy, -weight, 0.002 * weight);
@@ -71,8 +70,6 @@ TEST(Sleep, LeavesADepositAsItIs) {
         EXPECT_NEAR(end[1].peak_height, end[0].peak_height, 0.002 * Collapse::length);
         EXPECT_NEAR(end[1].x_q95 - end[1].x_q05, end[0].x_q95 - end[0].x_q05, 0.002 * Collapse::length);
         EXPECT_NEAR(end[1].energy_error, end[0].energy_error, 1e-4 * Collapse::energy);
-        std::printf("peak %g %g q %g %g err %g %g\n", end[0].peak_height, end[1].peak_height, end[0].x_q95,
-                    end[1].x_q95, end[0].energy_error, end[1].energy_error);
     }
 }
 
@@ -80,8 +77,8 @@ TEST(Sleep, LeavesADepositAsItIs) {
 TEST(Sleep, PlatesGoOnBearing) {
     for (const int32_t walls : {GP_WALL_FREE_SLIP, GP_WALL_NO_SLIP}) {
         Box awake(0, 24 * Box::dl, walls), asleep(1, 24 * Box::dl, walls);
-        awake.sim.run(1.5);
-        asleep.sim.run(1.5);
+        awake.sim.run(1);
+        asleep.sim.run(1);
         EXPECT_EQ(asleep.sim.state().n_awake, 0);
         double down = 0;
         for (int32_t k = 0; k < 3; ++k) {
@@ -90,7 +87,6 @@ TEST(Sleep, PlatesGoOnBearing) {
             EXPECT_NEAR(a.fx, b.fx, 0.02 * awake.weight) << walls << " " << k;
             EXPECT_NEAR(a.fy, b.fy, 0.02 * awake.weight) << walls << " " << k;
             EXPECT_NEAR(a.torque, b.torque, 0.02 * awake.weight * Box::width) << walls << " " << k;
-            std::printf("%d %d: %g %g, %g %g, %g %g\n", walls, k, a.fx, b.fx, a.fy, b.fy, a.torque, b.torque);
         }
         EXPECT_NEAR(down, asleep.weight, 0.002 * asleep.weight) << walls;
         EXPECT_NEAR(asleep.sim.state().max_pressure, awake.sim.state().max_pressure,
@@ -117,9 +113,6 @@ TEST(Sleep, ABlowWakesABed) {
             EXPECT_EQ(box.sim.state().n_awake, box.sim.state().n_particles);
         box.sim.run(1.5);
         end[sleep] = box.sim.state();
-        std::printf("%d awake %g highest load %g peak %g pot %g err %g coll %g\n", sleep, double(end[sleep].n_awake),
-                    highest[sleep], end[sleep].peak_height, end[sleep].potential, end[sleep].energy_error,
-                    end[sleep].max_compression);
     }
     EXPECT_EQ(end[1].n_awake, 0);
     EXPECT_NEAR(highest[1], highest[0], 0.03 * highest[0]);
@@ -149,7 +142,6 @@ TEST(Sleep, AWaveArrives) {
                     fastest[sleep] = std::max(fastest[sleep], v[i]);
                 }
         }
-        std::printf("%d first %g fastest %g dt %g\n", sleep, first[sleep], fastest[sleep], box.sim.state().dt);
     }
     EXPECT_GT(first[0], 0);
     EXPECT_NEAR(first[1], first[0], 0.05 * first[0]);
@@ -179,8 +171,6 @@ TEST(Sleep, AGateLetsAColumnGo) {
             EXPECT_EQ(sim.state().n_awake, sim.state().n_particles);
         sim.run(3);
         end[sleep] = sim.state();
-        std::printf("%d peak %g q95 %g awake %g\n", sleep, end[sleep].peak_height, end[sleep].x_q95,
-                    double(end[sleep].n_awake));
     }
     EXPECT_NEAR(end[1].x_q95, end[0].x_q95, 0.02 * end[0].x_q95);
     EXPECT_NEAR(end[1].peak_height, end[0].peak_height, 0.02 * end[0].peak_height);
@@ -203,7 +193,6 @@ TEST(Sleep, InclinedLayersSleepUpToTheirAngleAlone) {
             sim.run(4);
             const gp_state s = sim.state();
             speed[sleep] = s.rms_speed;
-            std::printf("%g %d: %g awake, %g m/s\n", angle, sleep, double(s.n_awake), s.rms_speed);
             if (sleep)
                 EXPECT_EQ(s.n_awake, angle < 21 ? 0 : s.n_particles) << angle;
         }
@@ -235,7 +224,6 @@ TEST(Sleep, GravityWakes) {
     const double weight = 1550 * 9.81 * period * 10 * dl;
     EXPECT_NEAR(load.fy, -weight * std::cos(degrees(10)), 0.005 * weight);
     EXPECT_NEAR(load.fx, weight * std::sin(degrees(10)), 0.005 * weight);
-    std::printf("load %g %g\n", load.fx / weight, load.fy / weight);
     tilt(22);
     sim.run(4);
     EXPECT_EQ(sim.state().n_awake, sim.state().n_particles);
@@ -308,9 +296,6 @@ TEST(Sleep, BesideWhatFlows) {
             EXPECT_LT(std::abs(s.energy_error), 2e-3 * s.potential) << amplitude;
             const double weight = (1550 * 9.81 * bed.height + 150) * bed.width;
             EXPECT_NEAR(bed.sim.load(bed.floor).fy, -weight, 0.03 * weight);
-            std::printf("%g %d awake %g kinetic %g dissipated %g err %g load %g lid %g %g\n", amplitude, sleep,
-                        double(s.n_awake), kinetic[sleep], dissipated[sleep], s.energy_error,
-                        bed.sim.load(bed.floor).fy / weight, bed.sim.load(bed.lid).fx, bed.sim.load(bed.floor).fx);
         }
         EXPECT_NEAR(kinetic[1], kinetic[0], 0.1 * kinetic[0]) << amplitude;
         EXPECT_NEAR(dissipated[1], dissipated[0], 0.1 * dissipated[0]) << amplitude;
@@ -377,7 +362,6 @@ TEST(Sleep, AHopperRunsOut) {
         left[sleep] = 0;
         for (const double y : sim.field(GP_FIELD_Y))
             left[sleep] += y > 0;
-        std::printf("%d left %g awake %g\n", sleep, left[sleep], double(sim.state().n_awake));
     }
     EXPECT_LT(left[0], 400);
     EXPECT_NEAR(left[1], left[0], 0.05 * 480);
