@@ -2,16 +2,20 @@
 //
 // A particle is quiet from the moment on at which it has last gone more than `quiet_way` within `quiet_spans` sqrt(dl / g), or
 // the mean stress of its block of 64 has last changed by more than `quiet_stress` of itself and of the weight of a spacing since,
-// or the block's mean velocity has been such that a wave of half that stress would go out from it if it stopped.
-// A block in which one has been quiet for less than that time is restless. What sees a restless block, or a ghost of a plate that acts, is computed, and
-// nothing else: it is left out of the stages, at rest, with the stress that it has. Between a restless block and one that sleeps
-// there is a ring of blocks as wide as particles see, horizon and skin; a wave takes several steps through it, each of which looks
-// at the ring, so that all that changes a stress by more than the hundredths above wakes what is behind before it is there. What
-// is weaker ends at the border: the force of what is awake on what sleeps is held, as by friction at rest.
+// or the block's mean velocity has been such that a wave of half that stress would go out from it if it stopped. A block in
+// which one has been quiet for less than that time is restless. What sees a restless block, or a ghost of a plate that acts, is
+// computed, and nothing else: it is left out of the stages, at rest, with the stress that it has. Between a restless block and
+// one that sleeps there is a ring of blocks as wide as particles see, horizon and skin; a wave takes several steps through it,
+// each of which looks at the ring, so that all that changes a stress by more than the hundredths above wakes what is behind
+// before it is there. What is weaker ends at the border: the force of what is awake on what sleeps is held, as by friction at
+// rest, and its momentum with it.
 //
 // A deposit at rest still trembles: grains that touch push each other in each step, so that the pressure of single ones varies by
 // a tenth, that of blocks by .005 at most, and the fastest grains drift by .007 dl in 4 sqrt(dl / g) (a = 1.25, L/dl = 32, 64).
-// Therefore ways in place of speeds, and means of blocks.
+// Therefore ways in place of speeds, and means of blocks. With ways of .005, .01, .02, .05, .1, .2 six such deposits have the same
+// peak to 1e-5 of the width and the same middle 90 % of the mass to 3e-5, and take 1.87, 1.45, 1.31, .82, .75, .77 s to 2 s; with
+// stresses of .005 to .1 likewise. Without the third rule a layer below a shear band that fell asleep woke itself: 65 Pa of a wave
+// for the 20 that wake.
 #include <algorithm>
 #include <cmath>
 
