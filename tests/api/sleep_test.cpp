@@ -106,10 +106,11 @@ TEST(SleepChoice, AStepTakenBack) {
     c.sound_speed = 10;
     Sim sim(c);
     fill(sim);
-    sim.column(1, 0, 0.04, 0.04); // between two plates that are to close up
-    sim.add(floor_at(0, 0.9, 1.2));
-    sim.add(plate(1, 0, 1, 0.2, GP_WALL_FREE_SLIP));
-    const int32_t right = sim.add(plate(1.04, 0.2, 1.04, 0, GP_WALL_FREE_SLIP));
+    // Between two plates that are to close up; higher, so that it has a block of the work for itself.
+    sim.column(1, 1, 0.04, 0.04);
+    sim.add(floor_at(1, 0.9, 1.2));
+    sim.add(plate(1, 1, 1, 1.2, GP_WALL_FREE_SLIP));
+    const int32_t right = sim.add(plate(1.04, 1.2, 1.04, 1, GP_WALL_FREE_SLIP));
     sim.run(1);
     ASSERT_EQ(sim.state().n_awake, 0);
     ASSERT_EQ(gp_set_plate_motion(sim, right, -20, 0, 0), GP_OK);
