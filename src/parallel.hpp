@@ -7,15 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 
-// Pair loops are compiled once per instruction set and chosen when the library is loaded. Sanitizers run before the
-// loader has resolved such functions, and clang's OpenMP outlining defeats them, so they are for plain g++ builds.
-#if defined(GP_ONE_VERSION)
-#define GP_MULTIVERSION __attribute__((target(GP_ONE_VERSION)))
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(GP_NO_MULTIVERSION)
-#define GP_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define GP_MULTIVERSION
-#endif
 #define GP_INLINE inline __attribute__((always_inline))
 
 namespace gp {

@@ -71,12 +71,12 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
         // reads what moved, by how the step before ended; writes who is awake
         {"wake", sleep, "sleep is 1: what nothing reaches is left out", no_sleep, stages::wake, nullptr, ""},
-        // copies what the next stages overwrite
+        // copies what the next stages overwrite; takes the pushes' memory for the gradient before the step, until integrate
         {"keep_fields", t.particles, "a step that diverges is taken back", no_particles, keep_fields, awake, all_sleep},
         // reads velocity; writes ghost velocity
         {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_velocity, awake_near, no_work},
-        // reads pressure, stress; writes which particles flow
+        // reads pressure, stress; writes which particles flow, in the acceleration's memory
         {"flowing", t.particles, "densities are tied to each other and to the spacing where it flows", no_particles,
          stages::flowing, awake, all_sleep},
         // reads position, velocity; writes shape tensor, velocity gradient and, where it flows, number density; with density
@@ -95,7 +95,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads what neighbours pull the fluidity to, summed up by the gradient; writes it for the stress
         {"fluidity", t.particles && t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
          stages::fluidity, awake, all_sleep},
-        // reads velocity gradient, pressure; writes stress, sigma K^-1; with fluidity that, too
+        // reads velocity gradient, pressure, shape tensor for the last time; writes stress, sigma K^-1; with fluidity that, too
         {"stress", t.particles, "elastic trial and return map", no_particles, stages::stress, awake, all_sleep},
         // reads pressure, stress; writes ghost stress
         {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
@@ -221,26 +221,38 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("stress_over_shape", bytes_of_all(p.cxx, p.cxy, p.cyx, p.cyy));
     common("acceleration", bytes_of_all(p.ax, p.ay));
     common("push", bytes_of_all(p.push_x, p.push_y));
-    entries.push_back(
-        field_entry("stressed", t.penalty,
-                    t.penalty ? "the zero-energy penalty acts on stressed material" : "zero_energy_penalty is 0",
-                    bytes_of(p.stressed)));
+    const bool own_memory = t.scheme != Scheme::adjoint;
+    entries.push_back(field_entry(
+        "stressed", t.penalty,
+        !t.penalty   ? "zero_energy_penalty is 0"
+        : own_memory ? "the zero-energy penalty acts on stressed material"
+                     : "the zero-energy penalty acts on stressed material; in the inverse shape tensor's memory",
+        bytes_of(p.stressed)));
     const char *by_number = "the density is that of the positions";
-    optional("flowing", !viscous, "densities are tied where it flows", by_number, bytes_of(p.flowing));
-    optional("crowding", !viscous, "what flows keeps its volume", by_number, bytes_of(p.crowding));
+    optional("flowing", !viscous, "densities are tied where it flows; in the acceleration's memory", by_number,
+             bytes_of(p.flowing));
+    optional("crowding", !viscous, "what flows keeps its volume; in the memory of stress over shape", by_number,
+             bytes_of(p.crowding));
     entries.push_back(field_entry("bearing", t.diffusion || t.fluid,
-                                  t.diffusion ? "density_diffusion > 0"
-                                  : t.fluid   ? "nonlocal_amplitude > 0"
+                                  t.diffusion ? "density_diffusion > 0; in the acceleration's memory"
+                                  : t.fluid   ? "nonlocal_amplitude > 0; in the acceleration's memory"
                                               : "density_diffusion and nonlocal_amplitude are 0",
                                   bytes_of(p.bearing)));
+    const bool exchanged = t.diffusion && !world.constants.one_density();
+    entries.push_back(field_entry("rest_density", exchanged,
+                                  !t.diffusion ? "density_diffusion is 0"
+                                  : exchanged  ? "density diffusion between materials of different density"
+                                               : "all material is of one density",
+                                  bytes_of_all(p.rest, p.inverse_rest)));
     optional("fluidity", t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
              bytes_of_all(p.fluidity, p.fluid_seen) + bytes_of_all(p.fluid_pull, p.fluid_pace));
     const bool flights = t.plates && !by_number_density(t.scheme);
-    entries.push_back(field_entry("carried", flights,
-                                  flights     ? "grains in flight above a plate carry no stress"
-                                  : !t.plates ? "the scene has no plates"
-                                              : "the paper's schemes know no flight",
-                                  bytes_of(p.carried)));
+    entries.push_back(
+        field_entry("carried", flights,
+                    flights     ? "grains in flight above a plate carry no stress; in the memory of stress over shape"
+                    : !t.plates ? "the scene has no plates"
+                                : "the paper's schemes know no flight",
+                    bytes_of(p.carried)));
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));
@@ -249,6 +261,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         kept += bytes_of(field);
     for (const Field<double> &field : world.step_start.made)
         kept += bytes_of(field);
+    kept += bytes_of_all(world.step_start.sxx, world.step_start.sxy);
     optional("kept_fields", true, "a step that diverges is taken back", "", kept);
     common("cells", world.grid.bytes());
     common("clusters", world.clusters.bytes());
@@ -260,7 +273,6 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                   world.images.bytes()));
     optional("viscous_system", t.scheme == Scheme::implicit, "the implicit solve's operators and vectors",
              "no implicit solve", world.viscous.bytes() + world.mirrors.bytes());
-    common("sort_scratch", p.scratch_bytes());
     optional("sleep", t.sleep, "sleep is 1: how long it has rested, blocks and loads of what sleeps", "sleep is 0",
              bytes_of_all(p.repose, p.asleep) + world.sleep.bytes());
     common("block_sums", bytes_of_all(world.sums, world.ranges));

@@ -1,6 +1,7 @@
 // Everything that the stages of a time step work on.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -85,7 +86,8 @@ struct StepStart {
     double shifted = 0;
     bool fields_kept = false;          // the next ones hold the present step's beginning
     std::vector<Field<double>> copied; // of fields that are changed in place
-    std::vector<Field<double>> made;   // of fields that are made anew: memory is exchanged, not copied
+    std::array<Field<double>, 4> made; // of the velocity gradient, made anew: memory is exchanged, not copied
+    Field<double> sxx, sxy;            // of the deviator, from stress on; only in the default scheme
 };
 
 // What the neighbour lists were made of. A checkpoint keeps it in place of the lists, which it makes anew from it.

@@ -534,7 +534,12 @@ module granperi_raw
             type(c_ptr) :: answer
         end function
 
-        !> 1 if this build has the named feature, else 0. Features: "hdf5", "openmp". NULL or an unknown name gives 0.
+        !> 1 if this build has the named feature, else 0. Features: "hdf5", "openmp", and the instruction set that the
+        !> engine runs with, one of "x86-64", "x86-64-v2", "x86-64-v3" (AVX2, FMA), "x86-64-v4" (AVX-512), "generic"
+        !> (another processor). NULL or an unknown name gives 0. A build for x86-64 has the engine twice, for x86-64 and
+        !> x86-64-v3, and takes what the processor has; their results differ in the last bits (docs/trust.md). The
+        !> environment variable GRANPERI_LEVEL, set to one of the names before the first call, asks for one; if it is
+        !> not the one that runs, gp_create and gp_load are GP_E_UNSUPPORTED.
         function gp_has_feature(name) bind(c, name="gp_has_feature") result(answer)
             import
             character(kind=c_char), intent(in), optional :: name(*)

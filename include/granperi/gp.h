@@ -85,7 +85,12 @@ GP_API uint32_t gp_version(void);
 /* The same as text, e.g. "0.1.0". */
 GP_API const char *gp_version_string(void);
 
-/* 1 if this build has the named feature, else 0. Features: "hdf5", "openmp". NULL or an unknown name gives 0. */
+/* 1 if this build has the named feature, else 0. Features: "hdf5", "openmp", and the instruction set that the engine runs with,
+ * one of "x86-64", "x86-64-v2", "x86-64-v3" (AVX2, FMA), "x86-64-v4" (AVX-512), "generic" (another processor). NULL or an unknown
+ * name gives 0.
+ * A build for x86-64 has the engine twice, for x86-64 and x86-64-v3, and takes what the processor has; their results differ in the
+ * last bits (docs/trust.md). The environment variable GRANPERI_LEVEL, set to one of the names before the first call, asks for one;
+ * if it is not the one that runs, gp_create and gp_load are GP_E_UNSUPPORTED. */
 GP_API int32_t gp_has_feature(const char *name);
 
 /* --------------------------------------------------------------------------------------------- parameters */

@@ -35,7 +35,7 @@ struct View {
 };
 
 // How many partners each particle has. Returns the sum.
-GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end) {
+int64_t count_partners(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     const Lanes one = Lanes{} + 1.0;
     int64_t sum = 0;
@@ -45,8 +45,9 @@ GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end
         const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes partners{};
-        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
-            const int32_t j = v.clusters.index[k];
+        int32_t j = v.clusters.first[c];
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+            j += v.clusters.step[k];
             const Lanes dx = x[j] - xi, dy = y[j] - yi;
             const Lanes r2 = dx * dx + dy * dy;
             // Where they are in the same place they do not approach: one's self among them.
@@ -64,7 +65,7 @@ GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end
 }
 
 // The velocity changes of the particles that have partners.
-GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
+void find_pushes(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     for (int64_t c = begin; c < end; ++c) {
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
@@ -82,8 +83,9 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
         }
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes du{}, dv{};
-        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
-            const int32_t j = v.clusters.index[k];
+        int32_t j = v.clusters.first[c];
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+            j += v.clusters.step[k];
             if (v.colliding[j] == 0)
                 continue;
             const Lanes dx = x[j] - xi, dy = y[j] - yi;

@@ -9,8 +9,6 @@
 // amount of rho in both made energy: half of all there was, between densities of 1 and 40). Of the stretched there is no
 // pressure to be continuous: there it is rho / rho0, in the lighter one's measure (by the excess, a heavy particle of half
 // its density took the light ones beside it below zero).
-#include <algorithm>
-
 #include "awake.hpp"
 #include "material/compression.hpp"
 #include "stages/density_exchange.hpp"
@@ -22,11 +20,10 @@ ExchangeView prepare_exchange(World &world) {
     Particles &p = world.particles;
     const Constants &c = world.constants;
     const double c2 = c.sound_speed * c.sound_speed;
-    const double first = c.materials[c.body_material[0]].density;
-    const bool one = std::all_of(c.body_material.begin(), c.body_material.end(),
-                                 [&](int32_t material) { return c.materials[material].density == first; });
-    // sigma K^-1 is made later in the step: until then it holds what is needed here.
-    Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.cyx, &inverse_rest = p.cyy;
+    const bool one = c.one_density();
+    // sigma K^-1 is made later in the step: until then its first row holds what is needed here, the excess and what changes.
+    Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.rest, &inverse_rest = p.inverse_rest;
+    hand_over(p.ay, p.bearing);
     for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);

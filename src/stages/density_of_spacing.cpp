@@ -58,6 +58,7 @@ void density_of_spacing(World &world) {
         }
         world.sums[block].spaced = p.volume * lost;
     });
+    hand_over(p.crowding, p.cyx);
 }
 
 } // namespace gp::stages

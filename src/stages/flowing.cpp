@@ -39,6 +39,7 @@ template <bool Fluid> void find_flowing(World &world) {
 } // namespace
 
 void flowing(World &world) {
+    hand_over(world.particles.ax, world.particles.flowing);
     if (world.constants.fluid)
         find_flowing<true>(world);
     else

@@ -31,6 +31,8 @@ GP_INLINE double pace_of_ghosts(const Walls &w, const Contact &contact, const Ve
 
 FluidityView prepare_fluidity(World &world) {
     Particles &p = world.particles;
+    if (p.bearing.empty()) // no density diffusion
+        hand_over(p.ay, p.bearing);
     for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             p.bearing[i] = p.pressure[i] > 0 ? 1.0 : 0.0;

@@ -40,8 +40,9 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
     }
     const double inverse_radius = v.inverse_radius;
     Lanes wx{}, wy{}, tx{}, ty{}, pu{}, pv{};
-    for (int64_t k = v.clusters.start[cluster]; k < v.clusters.stop[cluster]; ++k) {
-        const int32_t j = v.clusters.index[k];
+    int32_t j = v.clusters.first[cluster];
+    for (int64_t k = v.clusters.start[cluster], stop = v.clusters.stop(cluster); k < stop; ++k) {
+        j += v.clusters.step[k];
         const Lanes dx = x[j] - xi, dy = y[j] - yi;
         Lanes w = weight(dx * dx + dy * dy, inverse_radius);
         if (Partly)
@@ -81,11 +82,11 @@ template <bool Penalty> GP_INLINE void force_clusters(const View &v, int64_t beg
     }
 }
 
-GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+void plain_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<false>(v, begin, end);
 }
 
-GP_MULTIVERSION void penalty_clusters(const View &v, int64_t begin, int64_t end) {
+void penalty_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<true>(v, begin, end);
 }
 
@@ -129,7 +130,7 @@ GP_INLINE SymmetricTensor contact_force(const WallView &v, const Tensor &a, cons
     return {sxx, sxy, syy};
 }
 
-GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
+void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
     const Particles &p = world.particles;
     const double half = 0.5 * world.constants.penalty;
     for (int64_t k = begin; k < end; ++k) {

@@ -43,8 +43,9 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
     const double inverse_radius = v.inverse_radius;
     LaneMoments m;
     Exchange local = exchange;
-    for (int64_t k = v.clusters.start[cluster]; k < v.clusters.stop[cluster]; ++k) {
-        const int32_t j = v.clusters.index[k];
+    int32_t j = v.clusters.first[cluster];
+    for (int64_t k = v.clusters.start[cluster], stop = v.clusters.stop(cluster); k < stop; ++k) {
+        j += v.clusters.step[k];
         const Lanes dx = x[j] - xi, dy = y[j] - yi;
         Lanes w = weight(dx * dx + dy * dy, inverse_radius);
         if (Partly)
@@ -137,27 +138,27 @@ template <class Exchange> GP_INLINE void gradient_of_clusters(const View &v, int
     }
 }
 
-GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+void plain_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<NoExchange>(v, begin, end);
 }
 
-GP_MULTIVERSION void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<Exchange<true>>(v, begin, end);
 }
 
-GP_MULTIVERSION void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
+void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<Exchange<false>>(v, begin, end);
 }
 
-GP_MULTIVERSION void fluid_clusters(const View &v, int64_t begin, int64_t end) {
+void fluid_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<AndFluidity<NoExchange>>(v, begin, end);
 }
 
-GP_MULTIVERSION void fluid_exchanging_clusters(const View &v, int64_t begin, int64_t end) {
+void fluid_exchanging_clusters(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<AndFluidity<Exchange<true>>>(v, begin, end);
 }
 
-GP_MULTIVERSION void fluid_exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
+void fluid_exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
     gradient_of_clusters<AndFluidity<Exchange<false>>>(v, begin, end);
 }
 
@@ -202,22 +203,34 @@ View view_of(World &world, const ExchangeView &exchange) {
 
 } // namespace
 
+namespace {
+
+void run(World &world, const ExchangeView &exchange, ClusterLoop clusters) {
+    Particles &p = world.particles;
+    hand_over(p.cyx, p.crowding);
+    if (!world.walls.plates.empty())
+        hand_over(p.cyy, p.carried);
+    const View view = view_of(world, exchange);
+    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    hand_over(p.flowing, p.ax);
+    if (!p.bearing.empty())
+        hand_over(p.bearing, p.ay);
+}
+
+} // namespace
+
 void gradient(World &world) {
     ExchangeView exchange{};
     if (world.constants.fluid)
         exchange.fluidity = prepare_fluidity(world);
-    const View view = view_of(world, exchange);
-    const ClusterLoop clusters = world.constants.fluid ? fluid_clusters : plain_clusters;
-    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    run(world, exchange, world.constants.fluid ? fluid_clusters : plain_clusters);
 }
 
 void gradient_and_exchange(World &world) {
     ExchangeView exchange = prepare_exchange(world);
     if (world.constants.fluid)
         exchange.fluidity = prepare_fluidity(world);
-    const View view = view_of(world, exchange);
-    const ClusterLoop clusters = exchanging_loop(exchange.one_density, world.constants.fluid);
-    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    run(world, exchange, exchanging_loop(exchange.one_density, world.constants.fluid));
 }
 
 } // namespace gp::stages

@@ -4,6 +4,7 @@
 #include "awake.hpp"
 #include "error.hpp"
 #include "stages/stages.hpp"
+#include "undo.hpp"
 
 namespace gp::stages {
 
@@ -53,6 +54,8 @@ void require_bounded_step(const World &world, const Field<double> &ax, const Fie
 void integrate(World &world) {
     Particles &p = world.particles;
     require_bounded_step(world, p.ax, p.ay);
+    if (world.constants.scheme == Scheme::adjoint)
+        accept_step(world);
     const double dt = world.clock.dt;
     for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {

@@ -57,6 +57,18 @@ template <class Body> void for_each_of(const World &world, int64_t block, const 
 
 // ------------------------------------------------------------------------------------------------- new lists
 
+// The memory that changes places with that of the velocity gradient.
+void clear_exchanged(World &world, int64_t block) {
+    const auto clear = [&](Field<double> &field) {
+        if (!field.empty())
+            for_each_of(world, block, [&](int64_t i) { field[i] = 0; });
+    };
+    for (Field<double> &field : world.step_start.made)
+        clear(field);
+    clear(world.particles.push_x);
+    clear(world.particles.push_y);
+}
+
 void take_over_blocks(World &world) {
     Sleep &s = world.sleep;
     Particles &p = world.particles;
@@ -74,9 +86,8 @@ void take_over_blocks(World &world) {
         s.restless[block] = !asleep && restless;
         if (!asleep) // new neighbours in the order may be awake
             for_each_of(world, block, [&](int64_t i) { p.asleep[i] = 0; });
-        else // the memory that keep_fields exchanges is in the order of before
-            for (Field<double> &field : world.step_start.made)
-                for_each_of(world, block, [&](int64_t i) { field[i] = 0; });
+        else
+            clear_exchanged(world, static_cast<int64_t>(block)); // it is in the order of before
     }
 }
 
@@ -125,14 +136,13 @@ void link_blocks(World &world) {
     s.stamp.assign(static_cast<std::size_t>(blocks), -1);
     for (int64_t block = 0; block < blocks; ++block) {
         for (int32_t c = list.cluster_of_block[block]; c < list.cluster_of_block[block + 1]; ++c)
-            for (int64_t k = list.start[c]; k < list.stop[c]; ++k) {
-                const int32_t j = list.index[k];
+            for_each_entry(list, c, list.start[c + 1], [&](int64_t, int32_t j) {
                 const int64_t other = (j < count ? j : world.images.source(j)) / block_size;
                 if (s.stamp[other] == block)
-                    continue;
+                    return;
                 s.stamp[other] = static_cast<int32_t>(block);
                 s.links.push_back(static_cast<int32_t>(other));
-            }
+            });
         s.link_start[block + 1] = static_cast<int32_t>(s.links.size());
     }
     s.linked = true;
@@ -325,10 +335,9 @@ double lay_down(World &world, int64_t block) {
         kinetic += world.material_of(i).density * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
         p.vx[i] = p.vy[i] = p.ax[i] = p.ay[i] = p.push_x[i] = p.push_y[i] = 0;
         p.lxx[i] = p.lxy[i] = p.lyx[i] = p.lyy[i] = 0;
-        for (Field<double> &field : world.step_start.made)
-            field[i] = 0;
         p.asleep[i] = 1;
     });
+    clear_exchanged(world, block);
     world.sleep.asleep[block] = 1;
     return 0.5 * p.volume * kinetic;
 }

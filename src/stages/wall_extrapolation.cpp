@@ -39,7 +39,7 @@ struct VelocitySums {
     double w = 0, u = 0, v = 0, x = 0, y = 0;
 };
 
-GP_MULTIVERSION void add_velocities(const View &view, const GhostRow &row, VelocitySums &sums) {
+void add_velocities(const View &view, const GhostRow &row, VelocitySums &sums) {
     const double *__restrict x = view.x, *__restrict y = view.y, *__restrict vx = view.vx, *__restrict vy = view.vy;
     const int32_t *__restrict index = row.index;
     const double inverse_radius = view.inverse_radius, at_x = row.x, at_y = row.y;
@@ -63,7 +63,7 @@ struct WallStressSums {
     double w = 0, pressure = 0, xx = 0, xy = 0, down_x = 0, down_y = 0;
 };
 
-GP_MULTIVERSION void add_stresses(const View &view, const GhostRow &row, WallStressSums &sums) {
+void add_stresses(const View &view, const GhostRow &row, WallStressSums &sums) {
     const double *__restrict x = view.x, *__restrict y = view.y, *__restrict density = view.density;
     const double *__restrict pressure = view.pressure, *__restrict xx = view.sxx, *__restrict xy = view.sxy;
     const int32_t *__restrict index = row.index;

@@ -23,7 +23,8 @@ __version__ = _text_of(_lib.gp_version_string())
 
 
 def has_feature(name: str) -> bool:
-    """Whether the library was built with "hdf5" or "openmp"; False for other names."""
+    """Whether the library was built with "hdf5" or "openmp", or runs with the instructions of "x86-64-v3" (AVX2), "x86-64" and so on
+    (gp_has_feature has them all); False for other names."""
     return isinstance(name, str) and bool(_lib.gp_has_feature(name.encode("utf-8", "replace").replace(b"\0", b"?")))
 
 
