@@ -28,6 +28,12 @@ void Particles::allocate(int64_t n, const Optional &use) {
     if (use.fluidity)
         for (Field<double> *field : {&fluidity, &fluid_seen, &fluid_pull, &fluid_pace})
             field->resize(size);
+    if (use.sleep) {
+        repose.resize(size);
+        asleep.resize(size);
+        scratch_repose_.resize(size);
+        scratch_uint8_.resize(size);
+    }
 }
 
 void Particles::make_room(int64_t images) {
@@ -40,6 +46,8 @@ void Particles::make_room(int64_t images) {
         field.resize(size);
     };
     grow(column);
+    grow(asleep);
+    grow(scratch_uint8_);
     // The gradient and its like are not read of neighbours, but their memory changes places with that of fields that are.
     for (Field<double> *field :
          {&x,      &y,   &vx,       &vy,   &density,      &pressure, &sxx,        &sxy,         &lxx, &lxy,
@@ -72,6 +80,17 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
             gather(*field);
             field->swap(ax);
         }
+    const auto gather_items = [&](auto &field, auto &scratch) {
+        for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end; ++i)
+                scratch[i] = field[old_index[i]];
+        });
+        field.swap(scratch);
+    };
+    if (repose.empty())
+        return;
+    gather_items(repose, scratch_repose_);
+    gather_items(asleep, scratch_uint8_);
 }
 
 void Particles::give_back(bool stressed_in_shape) {

@@ -29,6 +29,17 @@ inline void hand_over(Field<double> &from, Field<double> &to) {
     to.swap(from);
 }
 
+// What a particle remembers so that it can be told whether it rests (stages/sleep.cpp). Single precision does: it is compared with
+// hundredths.
+struct Repose {
+    float quiet_for = 0;                  // s, that it has been quiet
+    float way_x = 0, way_y = 0;           // m, gone since
+    float pressure = 0, sxx = 0, sxy = 0; // Pa, when that began
+    float fluidity = 0;                   // 1/s, likewise
+    double gxx = 0, gxy = 0, gyy = 0;     // 1/m2, the inverse shape tensor, and
+    double stressed = 0;                  // the share of the penalty: of what is quiet, to stay so while it sleeps
+};
+
 struct Particles {
     int64_t count = 0;
     double volume = 0; // m2, spacing^2, of every particle
@@ -42,6 +53,9 @@ struct Particles {
     Field<double> pressure; // Pa
     Field<double> sxx, sxy; // Pa, deviatoric stress
     Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
+
+    Field<Repose> repose;  // only with gp_config.sleep
+    Field<uint8_t> asleep; // 1 or 0, likewise
 
     Field<double> fluidity; // 1/s, g; only where a material has one (material/fluidity.hpp)
 
@@ -77,6 +91,7 @@ struct Particles {
         bool densities;    // density diffusion between materials of different density
         bool shape;        // inverse shape tensor and the second row of sigma K^-1
         bool syy;
+        bool sleep;
     };
     // Gives every field in use its size.
     void allocate(int64_t n, const Optional &use);
@@ -89,6 +104,10 @@ struct Particles {
 
     // After a step that did not come to its end: what lies in the memory of other fields gives it back.
     void give_back(bool stressed_in_shape);
+
+private:
+    Field<Repose> scratch_repose_; // with sleep
+    Field<uint8_t> scratch_uint8_;
 };
 
 } // namespace gp

@@ -4,8 +4,8 @@
 #include <array>
 #include <initializer_list>
 
+#include "awake.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 
 namespace gp {
 
@@ -114,7 +114,7 @@ void keep_fields(World &world) {
     }
     for (std::size_t k = 0; k < made.size(); ++k)
         start.made[k].resize(made[k]->size()); // with the places of images
-    for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (std::size_t k = 0; k < changed.size(); ++k)
             std::copy(changed[k]->data() + begin, changed[k]->data() + end, start.copied[k].data() + begin);
     });
@@ -132,13 +132,18 @@ void undo_step(World &world, UndoneOrder order) {
     StepStart &start = world.step_start;
     if (start.fields_kept) {
         if (!start.sxx.empty()) {
-            std::copy_n(start.sxx.begin(), world.particles.count, world.particles.sxx.begin());
-            std::copy_n(start.sxy.begin(), world.particles.count, world.particles.sxy.begin());
+            for_each_awake_block(
+                world, [&](int64_t, int64_t begin, int64_t end) { // the rest of the memory is the shape's
+                    std::copy(start.sxx.data() + begin, start.sxx.data() + end, world.particles.sxx.data() + begin);
+                    std::copy(start.sxy.data() + begin, start.sxy.data() + end, world.particles.sxy.data() + begin);
+                });
         }
         const auto changed = fields_changed_in_place(world);
         const auto made = fields_made_anew(world);
-        for (std::size_t k = 0; k < changed.size(); ++k)
-            std::copy(start.copied[k].begin(), start.copied[k].end(), changed[k]->begin());
+        for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
+            for (std::size_t k = 0; k < changed.size(); ++k)
+                std::copy(start.copied[k].data() + begin, start.copied[k].data() + end, changed[k]->data() + begin);
+        });
         if (pressure_follows(world))
             follow_density(world);
         for (std::size_t k = 0; k < made.size(); ++k)

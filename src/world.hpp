@@ -11,6 +11,7 @@
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "scene.hpp"
+#include "sleep.hpp"
 #include "viscous_system.hpp"
 #include "walls.hpp"
 
@@ -126,6 +127,7 @@ struct World {
     double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
     double fastest = 0;       // m/s, bound on any particle's speed
 
+    Sleep sleep;
     std::vector<BlockSums> sums;
     std::vector<BlockRange> ranges;
     Field<uint8_t> colliding;    // partners of each particle in this step's collisions

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "lanes.hpp"
-#include "parallel.hpp"
 #include "stages/push.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -15,18 +15,23 @@ namespace gp::stages {
 
 namespace {
 
+constexpr double immovable = 1e100; // kg/m3
+
 struct View {
     Clusters clusters;
     const double *x, *y, *vx, *vy;
     double distance2;
     const Constants *constants;
     const int32_t *column;
+    const uint8_t *asleep; // NULL where nothing sleeps
     uint8_t *colliding;
     double *du, *dv; // velocity changes
 
     GP_INLINE double density(int64_t i) const {
         return constants->materials[constants->body_material[column[i]]].density;
     }
+    // What sleeps does not give way: it is as heavy as a wall.
+    GP_INLINE double partner_density(int64_t j) const { return asleep && asleep[j] ? immovable : density(j); }
 };
 
 // How many partners each particle has. Returns the sum.
@@ -86,7 +91,7 @@ void find_pushes(const View &v, int64_t begin, int64_t end) {
             const Lanes dx = x[j] - xi, dy = y[j] - yi;
             const Lanes r2 = dx * dx + dy * dy;
             const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
-            const double other = v.density(j), others = v.colliding[j];
+            const double other = v.partner_density(j), others = v.colliding[j];
             const Lanes most = choose(partners > others, partners, Lanes{} + others);
             // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
             Lanes impulse =
@@ -109,11 +114,19 @@ void collide(World &world) {
     const double dt = world.clock.dt;
     update_images(world);
     // sigma K^-1 has done its work: its first row holds the velocity changes.
-    const View view{Clusters(world),  p.x.data(),      p.y.data(),
-                    p.vx.data(),      p.vy.data(),     distance * distance,
-                    &world.constants, p.column.data(), world.colliding.data(),
-                    p.cxx.data(),     p.cxy.data()};
-    for_each_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+    const View view{Clusters(world),
+                    p.x.data(),
+                    p.y.data(),
+                    p.vx.data(),
+                    p.vy.data(),
+                    distance * distance,
+                    &world.constants,
+                    p.column.data(),
+                    world.sleep.some ? p.asleep.data() : nullptr,
+                    world.colliding.data(),
+                    p.cxx.data(),
+                    p.cxy.data()};
+    for_each_seen_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;
     });
@@ -125,8 +138,8 @@ void collide(World &world) {
 
     world.images.copy(world.colliding);
 
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { find_pushes(view, begin, end); });
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { find_pushes(view, begin, end); });
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double loss = 0;
         for (int64_t i = begin; i < end; ++i) {
             if (world.colliding[i] == 0)

@@ -1,5 +1,5 @@
+#include "awake.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -26,7 +26,7 @@ void density(World &world) {
     const double c2 = world.constants.sound_speed * world.constants.sound_speed;
     const double acoustic_steps = world.constants.sound_speed * dt / world.constants.spacing;
     const bool flights = !p.carried.empty();
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double densest = 0, released = 0; // J/m3
         bool unbounded = false;
         for (int64_t i = begin; i < end; ++i) {

@@ -9,8 +9,8 @@
 // amount of rho in both made energy: half of all there was, between densities of 1 and 40). Of the stretched there is no
 // pressure to be continuous: there it is rho / rho0, in the lighter one's measure (by the excess, a heavy particle of half
 // its density took the light ones beside it below zero).
+#include "awake.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/density_exchange.hpp"
 #include "stages/stages.hpp"
 
@@ -25,7 +25,7 @@ ExchangeView prepare_exchange(World &world) {
     Field<double> &excess = p.cxy, &bears = one ? p.bearing_flow : p.bearing;
     if (bears.empty()) // it has no memory of its own
         hand_over(p.ay, bears);
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);
             const double over = p.density[i] - m.density, bearing = over > 0 ? 1.0 : 0.0;
@@ -65,7 +65,7 @@ ExchangeView prepare_exchange(World &world) {
 void density_diffusion(World &world) {
     Particles &p = world.particles;
     const double c2 = world.constants.sound_speed * world.constants.sound_speed;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         Lanes lost{};
         for (int64_t first = begin; first < end; first += lane_count) {
             const LanePlaces places(first, end);

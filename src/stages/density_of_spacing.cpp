@@ -21,9 +21,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -40,7 +40,7 @@ void density_of_spacing(World &world) {
     Particles &p = world.particles;
     const double inverse = 1.0 / world.constants.lattice.number_density;
     const double strains = world.clock.dt / spacing_strain;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         Lanes lost{};
         for (int64_t first = begin; first < end; first += lane_count) {
             const LanePlaces places(first, end);

@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"
-#include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -195,7 +195,7 @@ void force(World &world) {
                     1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data()};
     const bool in_reach = walls.in_reach();
     const auto clusters = c.penalty > 0 ? penalty_clusters : plain_clusters;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         const int32_t *of_block = world.clusters.cluster_of_block.data();
         clusters(view, of_block[block], of_block[block + 1]);
         if (in_reach)

@@ -237,7 +237,7 @@ void run(World &world, const ExchangeView &exchange, ClusterLoop clusters) {
     if (!world.walls.plates.empty())
         hand_over(p.cyy, p.carried);
     const View view = view_of(world, exchange);
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
     hand_over(p.flowing, p.ax);
     if (p.ay.empty())
         hand_over(p.bearing.empty() ? p.bearing_flow : p.bearing, p.ay);

@@ -1,6 +1,7 @@
 // One particle's neighbours as the pair loops see them: its row of the lists, then its rows of ghosts, plate by plate.
 #pragma once
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"
 #include "world.hpp"
@@ -60,11 +61,17 @@ struct Clusters {
     GP_INLINE Lanes seen(const Lanes &w, int64_t k) const { return seen_by_lanes(w, seen_by[k]); }
 };
 
-// Calls body(block, first, last) for the clusters first .. last of each block of particles.
-template <class Body> void for_each_cluster_block(const World &world, const Body &body) {
+// Calls body(block, first, last) for the clusters first .. last of each block of particles that is awake.
+template <class Body> void for_each_awake_cluster_block(const World &world, const Body &body) {
     const int32_t *of_block = world.clusters.cluster_of_block.data();
-    for_each_block(world.threads, world.particles.count,
-                   [&](int64_t block, int64_t, int64_t) { body(block, of_block[block], of_block[block + 1]); });
+    for_each_awake_block(world,
+                         [&](int64_t block, int64_t, int64_t) { body(block, of_block[block], of_block[block + 1]); });
+}
+// And of those asleep that these see.
+template <class Body> void for_each_seen_cluster_block(const World &world, const Body &body) {
+    const int32_t *of_block = world.clusters.cluster_of_block.data();
+    for_each_seen_block(world,
+                        [&](int64_t block, int64_t, int64_t) { body(block, of_block[block], of_block[block + 1]); });
 }
 
 // A plate with its own idea of friction passes no shear: of a sum of velocity differences (x) ways to its ghosts, the

@@ -1,9 +1,9 @@
 // Elastic trial, return map and sigma K^-1, four particles at a time.
 #include <algorithm>
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "material/fluidity.hpp"
-#include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -197,7 +197,9 @@ void stress(World &world) {
     const std::vector<int32_t> &materials = world.constants.body_material;
     const bool one_material =
         std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    if (world.sleep.may_rest)
+        remember_shape(world);
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         StressSums of_block;
         rows(world, one_material, begin, end, of_block);
         BlockSums &sums = world.sums[block];
@@ -211,6 +213,8 @@ void stress(World &world) {
     hand_over(p.gxy, world.step_start.sxy);
     if (penalty)
         hand_over(p.gyy, p.stressed);
+    if (world.sleep.may_rest)
+        hold_stress(world);
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.constants.penalty > 0)
         world.images.copy(p.stressed);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "lanes.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -91,9 +91,7 @@ GP_INLINE void sum_up_ghosts(const View &view, int64_t begin, int64_t end, const
 
 template <class Sums, class Body> void for_each_ghost(const World &world, const Body &body) {
     const View view(world);
-    for_each_block<ghost_block_size>(world.threads, world.walls.ghost_count, [&](int64_t, int64_t begin, int64_t end) {
-        sum_up_ghosts<Sums>(view, begin, end, body);
-    });
+    for_each_awake_ghost_run(world, [&](int64_t begin, int64_t end) { sum_up_ghosts<Sums>(view, begin, end, body); });
 }
 
 // Velocities are extrapolated linearly through the plate's surface, by the ratio of the ghost's depth to the particles'

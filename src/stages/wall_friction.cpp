@@ -4,6 +4,7 @@
 // A stress or a stress ratio carried on through the surface by ghosts, and the zero-energy penalty towards them, braked a
 // sliding layer of 2, 3, 6, 10 rows with 1.11, 1.14, 1.09, 1.05 of mu times its weight, and put 18 % too much on the rough walls
 // of a silo; the run-out of a collapse erred by 15 % at L/dl = 32 for it, and depended on the horizon.
+#include "awake.hpp"
 #include "stages/push.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -81,20 +82,20 @@ template <bool Fluid> void brake_contacts(World &world) {
     const Particles &p = world.particles;
     const bool sticks =
         world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
-    for (const Contact &contact : world.walls.contacts) {
+    for_each_awake_contact(world, [&](const Contact &contact) {
         const Facet &facet = world.walls.facets[contact.facet];
         const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
         if (facet.spec->friction == GP_WALL_FREE_SLIP || (rough && sticks))
-            continue;
+            return;
         const int64_t i = contact.particle;
         const Segment &s = facet.segment;
         const double normal = s.normal.x() * contact.force_x + s.normal.y() * contact.force_y;
         if (normal <= 0)
-            continue;
+            return;
         const double slip =
             s.tangent.dot(Vector(p.vx[i], p.vy[i]) - world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]}));
         if (slip == 0)
-            continue;
+            return;
         const double direction = slip > 0 ? 1 : -1;
         // A particle without stress of its own is under what its plate presses it with.
         const double pressure = std::max(p.pressure[i], normal * world.constants.spacing);
@@ -118,13 +119,13 @@ template <bool Fluid> void brake_contacts(World &world) {
         }
         const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
         if (stop <= 0)
-            continue;
+            return;
         const double before = world.ledger.dissipated;
         push_by_plate(world, contact, -direction * stop * s.tangent);
         // The plastic part has counted the shear towards the ghosts of a rough plate already; that is taken off the walls'.
         if (rough)
             world.ledger.walls += world.ledger.dissipated - before;
-    }
+    });
 }
 
 } // namespace
