@@ -35,13 +35,6 @@ struct Box {
     int32_t floor = 0, left = 0, right = 0;
 };
 
-double largest_difference(const std::vector<double> &a, const std::vector<double> &b) {
-    double most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        most = std::max(most, std::abs(a[i] - b[i]));
-    return most;
-}
-
 } // namespace
 
 // A deposit falls asleep as a whole, after some 8 sqrt(dl / g) of rest, and is what it would be without: up to then the bits are
