@@ -14,6 +14,7 @@ from ._output import Output
 from ._plate import Plate
 from ._result import Result, Snapshot
 from ._scene import Run, Scene, SceneError
+from ._settings import Settings, settings
 from ._simulation import Simulation
 from ._state import Clock, History, Load, PlanEntry, State
 from ._views import FieldView, Particles, View
@@ -34,6 +35,7 @@ __all__ = [
     "ArgumentError", "ArgumentTypeError", "Clock", "Column", "Config", "Density", "Difference", "DivergedError", "Error",
     "Estimate", "Field", "FieldView", "FileError", "Fluidity", "GranperiWarning", "History", "InitialPressure", "InternalError",
     "Load", "Material", "OutOfMemoryError", "Output", "Particles", "PlanEntry", "Plate", "Preset", "Result", "Run",
-    "Scene", "SceneError", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",
+    "Scene", "SceneError", "Settings", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",
     "UnsupportedError", "VersionError", "View", "Wall", "compare", "estimate", "has_feature", "load",
+    "settings",
 ]
