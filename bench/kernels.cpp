@@ -3,11 +3,16 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstring>
+#include <ctime>
 #include <map>
 #include <memory>
+#include <vector>
 
+#include "plan.hpp"
 #include "sim.hpp"
 #include "stages/stages.hpp"
+#include "undo.hpp"
 
 namespace {
 
@@ -51,11 +56,7 @@ double neighbors_of(const gp::World &world) {
     return static_cast<double>(pairs) / static_cast<double>(p.count);
 }
 
-// Each leaves the positions as they are, so that every call has the same pairs.
-void run_stage(benchmark::State &state, void (*stage)(gp::World &)) {
-    gp::World &world = world_of(static_cast<int>(state.range(0)));
-    for (auto _ : state)
-        stage(world);
+void count(benchmark::State &state, const gp::World &world) {
     const double particles = static_cast<double>(world.particles.count);
     state.counters["particles"] = particles;
     state.counters["neighbors"] = neighbors_of(world);
@@ -64,22 +65,62 @@ void run_stage(benchmark::State &state, void (*stage)(gp::World &)) {
         benchmark::Counter(particles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-#define GP_KERNEL(stage)                                                                                               \
-    BENCHMARK_CAPTURE(run_stage, stage, gp::stages::stage)                                                             \
-        ->Arg(40)                                                                                                      \
-        ->Arg(largest_in_flow)                                                                                         \
-        ->Arg(400)                                                                                                     \
-        ->Unit(benchmark::kMicrosecond)
+// Work between steps. It leaves the positions as they are, so that every call has the same pairs.
+void run_alone(benchmark::State &state, void (*work)(gp::World &)) {
+    gp::World &world = world_of(static_cast<int>(state.range(0)));
+    for (auto _ : state)
+        work(world);
+    count(state, world);
+}
 
-GP_KERNEL(make_lists);
-GP_KERNEL(wall_velocity);
-GP_KERNEL(gradient);
-GP_KERNEL(gradient_and_exchange);
-GP_KERNEL(stress);
-GP_KERNEL(wall_stress);
-GP_KERNEL(force);
-GP_KERNEL(collide);
-GP_KERNEL(measure_velocities);
+double cpu_seconds() {
+    timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// A stage in its step, which is taken back each time: what a stage reads lives from the one that makes it. Its own CPU
+// time alone counts: the column Time.
+void run_stage(benchmark::State &state, const char *name) {
+    gp::World &world = world_of(static_cast<int>(state.range(0)));
+    const std::vector<gp::PlannedStage> stages = gp::make_stages(gp::traits_of(*world.scene, world.constants));
+    for (auto _ : state) {
+        gp::begin_step(world);
+        for (const gp::PlannedStage &stage : stages) {
+            if (!stage.needed || (stage.now && !stage.now(world)))
+                continue;
+            const double before = cpu_seconds();
+            stage.run(world);
+            const double seconds = cpu_seconds() - before;
+            if (!std::strcmp(stage.name, name)) {
+                state.SetIterationTime(seconds);
+                break;
+            }
+        }
+        gp::undo_step(world);
+    }
+    count(state, world);
+}
+
+void at_sizes(benchmark::internal::Benchmark *benchmark) {
+    benchmark->Arg(40)->Arg(largest_in_flow)->Arg(400)->Unit(benchmark::kMicrosecond);
+}
+
+#define GP_ALONE(work) BENCHMARK_CAPTURE(run_alone, work, gp::stages::work)->Apply(at_sizes)
+#define GP_STAGE(stage) BENCHMARK_CAPTURE(run_stage, stage, #stage)->Apply(at_sizes)->UseManualTime()
+
+GP_ALONE(make_lists);
+GP_STAGE(flowing);
+GP_STAGE(wall_velocity);
+GP_STAGE(gradient);
+GP_STAGE(density_diffusion);
+GP_STAGE(density_of_spacing);
+GP_STAGE(density);
+GP_STAGE(stress);
+GP_STAGE(wall_stress);
+GP_STAGE(force);
+GP_ALONE(collide);
+GP_ALONE(measure_velocities);
 
 } // namespace
 

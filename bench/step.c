@@ -189,6 +189,9 @@ static void report(gp_sim *sim, const cost *costs, int n, double *sorted) {
         if (stage > 0)
             printf("stage_%s %.6g ns/particle-step\n", plan[k].name, stage);
     }
+    for (k = 0; k < entries; ++k)
+        if (plan[k].bytes > 0)
+            printf("bytes_%s %.6g bytes/particle\n", plan[k].name, (double)plan[k].bytes / (double)count_of(sim));
     printf("bytes %.6g bytes/particle\n", bytes / (double)count_of(sim));
     printf("peak_memory %.6g bytes, of the whole program so far\n", peak_memory());
     printf("cpu_seconds %.6g s, of the whole program so far\n", cpu_seconds());

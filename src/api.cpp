@@ -14,6 +14,7 @@
 #include "granperi/gp.h"
 #include "io/checkpoint.hpp"
 #include "io/output.hpp"
+#include "level.hpp"
 #include "sim.hpp"
 
 struct gp_sim {
@@ -189,7 +190,7 @@ int32_t gp_has_feature(const char *name) {
     if (std::strcmp(name, "openmp") == 0)
         return 1;
 #endif
-    return 0;
+    return std::strcmp(name, level_name) == 0;
 }
 
 // ----------------------------------------------------------------------------------------------- parameters
@@ -220,6 +221,7 @@ gp_status gp_create(const gp_config *config, gp_sim **sim) {
     return guard([&] {
         require_pointer("sim", sim);
         *sim = nullptr;
+        require_level();
         // Fields that an older program does not know are those of the preset it knows: the default one.
         *sim = new gp_sim(complete(config, default_config(GP_PRESET_DEFAULT), "gp_config"));
         return GP_OK;
@@ -486,6 +488,7 @@ gp_status gp_load_file(const char *path, gp_sim **sim) {
         require_pointer("sim", sim);
         *sim = nullptr;
         require_pointer("path", path);
+        require_level();
         std::unique_ptr<gp_sim> loaded;
         const auto create = [&](const gp_config &config) -> Sim & {
             loaded = std::make_unique<gp_sim>(config);
@@ -497,12 +500,6 @@ gp_status gp_load_file(const char *path, gp_sim **sim) {
         *sim = loaded.release();
         return GP_OK;
     });
-}
-
-// The name gp_load for programs that look symbols up: in C it is the type's.
-GP_API gp_status gp_load_symbol(const char *path, gp_sim **sim) __asm__("gp_load");
-gp_status gp_load_symbol(const char *path, gp_sim **sim) {
-    return gp_load_file(path, sim);
 }
 
 gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output) {

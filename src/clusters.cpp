@@ -9,9 +9,10 @@
 namespace gp {
 
 int64_t ClusterList::bytes() const {
-    return static_cast<int64_t>((first.capacity() + index.capacity() + cluster_of_block.capacity()) * sizeof(int32_t) +
-                                (start.capacity() + close_stop.capacity() + stop.capacity()) * sizeof(int64_t) +
-                                partly_seen.capacity() + seen_by.capacity());
+    return static_cast<int64_t>(
+        (first.capacity() + close.capacity() + cluster_of_block.capacity() + draft.index.capacity()) * sizeof(int32_t) +
+        (start.capacity() + draft.room.capacity()) * sizeof(int64_t) + step.capacity() * sizeof(int16_t) +
+        partly_seen.capacity() + seen_by.capacity() + draft.seen_by.capacity());
 }
 
 namespace {
@@ -57,161 +58,19 @@ void cut(const Particles &p, const CellGrid &grid, double radius, int threads, C
     list.first.back() = static_cast<int32_t>(p.count);
 }
 
-// Calls body(begin, end, side) for the runs of candidates about a cluster: of particles (side -1) and of those whose images
-// on a side of the period count.
-template <class Body> void for_each_run(const CellGrid &grid, const Images &images, const Box &box, const Body &body) {
-    grid.for_each_run(box, [&](int64_t begin, int64_t end) { body(begin, end, -1); });
-    if (images.count == 0)
-        return;
-    for (int side = 0; side < 2; ++side) {
-        const double shift = images.shift(side);
-        grid.for_each_run({box.x_min - shift, box.x_max - shift, box.y_min, box.y_max},
-                          [&](int64_t begin, int64_t end) { body(begin, end, side); });
-    }
-}
-
-constexpr int64_t chunk = 64;
-
-struct LanesAt {
-    double x[lane_count], y[lane_count];
-};
-
-// found[k]: 0 for a particle begin + k out of reach of every lane, 1 for one within the radius of some, 3 for a close one.
-GP_MULTIVERSION void test_run(const double *__restrict x, const double *__restrict y, int64_t n, const LanesAt &at,
-                              double radius2, double close2, int32_t *__restrict found) {
-    const LanesAt own = at;
-#pragma omp simd
-    for (int64_t k = 0; k < n; ++k) {
-        double nearest = 1e300;
-        for (int l = 0; l < lane_count; ++l) {
-            const double dx = x[k] - own.x[l], dy = y[k] - own.y[l];
-            const double r2 = dx * dx + dy * dy;
-            nearest = r2 < nearest ? r2 : nearest;
-        }
-        found[k] = nearest < close2 ? 3 : (nearest < radius2 ? 1 : 0);
-    }
-}
-
-// One cluster's row: close ones from the beginning of its room on, the others from its end down; then these move up.
-struct Row {
-    int32_t *close, *others;
-
-    void add(int32_t j, int32_t found) {
-        *close = j;
-        close += found == 3;
-        others[-1] = j;
-        others -= found == 1;
-    }
-};
-
-Box box_of(const Particles &p, int64_t first, int64_t last, double margin) {
-    Box box{p.x[first], p.x[first], p.y[first], p.y[first]};
-    for (int64_t i = first + 1; i < last; ++i) {
-        box.x_min = std::min(box.x_min, p.x[i]);
-        box.x_max = std::max(box.x_max, p.x[i]);
-        box.y_min = std::min(box.y_min, p.y[i]);
-        box.y_max = std::max(box.y_max, p.y[i]);
-    }
-    return {box.x_min - margin, box.x_max + margin, box.y_min - margin, box.y_max + margin};
-}
-
-bool separated(const Barriers &barriers, const SegmentCells::Run &about, const Vector &a, const Vector &b,
-               double tolerance) {
-    return std::any_of(about.begin(), about.end(), [&](int32_t k) {
-        const Segment &barrier = barriers.segments[k];
-        return crossing(barrier, a, b, tolerance) >= 0 || crossing(barrier, b, a, tolerance) >= 0;
-    });
-}
-
-// Which lanes see what of a row; true if not all see all.
-bool look_through(const Particles &p, const Barriers &barriers, double tolerance, int64_t cluster, ClusterList &list) {
-    SegmentCells::Run about[lane_count];
-    bool any = false, partly = false;
-    for (int32_t i = list.first[cluster], l = 0; i < list.first[cluster + 1]; ++i, ++l) {
-        about[l] = barriers.cells.about(p.x[i], p.y[i]);
-        any |= !about[l].empty();
-    }
-    if (!any)
-        return false;
-    for (int64_t k = list.start[cluster]; k < list.stop[cluster]; ++k) {
-        const int32_t j = list.index[k];
-        unsigned lanes = 0;
-        for (int32_t i = list.first[cluster], l = 0; i < list.first[cluster + 1]; ++i, ++l)
-            if (i == j || !separated(barriers, about[l], {p.x[i], p.y[i]}, {p.x[j], p.y[j]}, tolerance))
-                lanes |= 1u << l;
-            else
-                partly = true;
-        list.seen_by[k] = static_cast<uint8_t>(lanes);
-    }
-    return partly;
-}
-
 } // namespace
 
 void find_clusters(const Particles &p, const CellGrid &grid, const Images &images, double radius, double close_radius,
                    const Barriers &barriers, double tolerance, int threads, ClusterList &list) {
     cut(p, grid, radius, threads, list);
-    const int64_t count = static_cast<int64_t>(list.first.size()) - 1;
-    const double radius2 = radius * radius, close2 = close_radius * close_radius;
+    const std::size_t count = list.first.size() - 1;
     list.start.resize(count + 1);
-    list.close_stop.resize(count);
-    list.stop.resize(count);
-    // Room for all candidates: to count those within the radius would take as long as to list them.
-    list.start[0] = 0;
-    for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t c = begin; c < end; ++c) {
-            int64_t most = 0;
-            for_each_run(grid, images, box_of(p, list.first[c], list.first[c + 1], radius),
-                         [&](int64_t from, int64_t to, int) { most += to - from; });
-            list.start[c + 1] = most;
-        }
-    });
-    std::partial_sum(list.start.begin(), list.start.end(), list.start.begin());
-    if (static_cast<int64_t>(list.index.size()) < list.start[count])
-        list.index.resize(list.start[count] + list.start[count] / 8); // so that later lists of about this size fit
-    if (barriers.segments.empty()) {
+    list.close.resize(count);
+    if (barriers.segments.empty())
         list.partly_seen.clear();
-    } else {
+    else
         list.partly_seen.resize(count);
-        list.seen_by.resize(list.index.size());
-    }
-    for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
-        int32_t found[chunk];
-        for (int64_t c = begin; c < end; ++c) {
-            const int64_t first = list.first[c], last = list.first[c + 1];
-            const LanePlaces places(first, last);
-            LanesAt at;
-            for (int l = 0; l < lane_count; ++l) {
-                at.x[l] = p.x[places.at[l]];
-                at.y[l] = p.y[places.at[l]];
-            }
-            int32_t *const row_begin = list.index.data() + list.start[c];
-            int32_t *const row_end = list.index.data() + list.start[c + 1];
-            Row row{row_begin, row_end};
-            for_each_run(grid, images, box_of(p, first, last, radius), [&](int64_t from, int64_t to, int side) {
-                if (side >= 0) {
-                    for (int64_t source = from; source < to; ++source)
-                        if (const int32_t j = images.image_of(source, side); j >= 0) {
-                            test_run(p.x.data() + j, p.y.data() + j, 1, at, radius2, close2, found);
-                            row.add(j, found[0]);
-                        }
-                    return;
-                }
-                for (int64_t j = from; j < to; j += chunk) {
-                    const int64_t n = std::min(chunk, to - j);
-                    test_run(p.x.data() + j, p.y.data() + j, n, at, radius2, close2, found);
-                    for (int64_t k = 0; k < n; ++k)
-                        row.add(static_cast<int32_t>(j + k), found[k]);
-                }
-            });
-            list.close_stop[c] = row.close - list.index.data();
-            list.stop[c] = list.close_stop[c] + (row_end - row.others);
-            if (row.close < row.others) // not where the row is full, or nothing at all
-                std::copy(row.others, row_end, row.close);
-            if (!barriers.segments.empty())
-                list.partly_seen[c] = look_through(p, barriers, tolerance, c, list);
-        }
-    });
+    find_rows(p, grid, images, radius, close_radius, barriers, tolerance, threads, list);
 }
 
 void find_neighbors(const Particles &p, const ClusterList &clusters, double radius, int threads, NeighborList &list) {

@@ -15,11 +15,15 @@
 namespace gp {
 
 struct ClusterList {
-    // Cluster c holds the particles first[c] .. first[c + 1], and sees the particles and images index[start[c]] .. index[stop[c]],
-    // itself among them. Those that may collide with one of it come first, up to close_stop[c].
+    // Cluster c holds the particles first[c] .. first[c + 1]. Its row, the entries start[c] .. start[c + 1], are the particles and
+    // images that it sees, itself among them; those that may collide with one of it come first, `close` of them.
+    //
+    // A row is walked from first[c] on: step[k] leads from one entry's index to the next one's. A way that no step of 16 bits
+    // goes is gone in several, over places that none of the cluster sees: they add nothing, like all that is out of reach.
     Field<int32_t> first;
-    Field<int64_t> start, close_stop, stop;
-    Field<int32_t> index;
+    Field<int64_t> start;
+    Field<int32_t> close;
+    Field<int16_t> step;
     Field<int32_t>
         cluster_of_block; // the first one of each block of particles; clusters do not reach over a block's end
 
@@ -27,9 +31,25 @@ struct ClusterList {
     Field<uint8_t> partly_seen;
     Field<uint8_t> seen_by;
 
-    int64_t count() const { return static_cast<int64_t>(stop.size()); }
+    // Some blocks' rows while they are found: places, and lanes that see them.
+    struct Draft {
+        Field<int64_t> room; // of the blocks before each one: for all candidates
+        Field<int32_t> index;
+        Field<uint8_t> seen_by;
+    } draft;
+
+    int64_t count() const { return static_cast<int64_t>(close.size()); }
     int64_t bytes() const;
 };
+
+// Calls found(k, j) for the entries k of a row up to `stop`, and their particles or images j.
+template <class Found> void for_each_entry(const ClusterList &list, int64_t cluster, int64_t stop, const Found &found) {
+    int32_t j = list.first[cluster];
+    for (int64_t k = list.start[cluster]; k < stop; ++k) {
+        j += list.step[k];
+        found(k, j);
+    }
+}
 
 // Plates with material behind them: pairs of particles do not see each other through these.
 struct Barriers {
@@ -43,13 +63,18 @@ struct Barriers {
 void find_clusters(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
                    double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list);
 
+// The rows of clusters that have been cut (cluster_rows.cpp).
+void find_rows(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+               double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list);
+
 // Calls found(j) for the particles and images in the list of particle i's cluster that i sees: all within the radius, and
 // some that are not.
 template <class Found> void for_each_seen(const ClusterList &list, int64_t cluster, int64_t i, const Found &found) {
     const bool partly = !list.partly_seen.empty() && list.partly_seen[cluster];
-    for (int64_t k = list.start[cluster]; k < list.stop[cluster]; ++k)
-        if (list.index[k] != i && (!partly || (list.seen_by[k] >> (i - list.first[cluster]) & 1)))
-            found(list.index[k]);
+    for_each_entry(list, cluster, list.start[cluster + 1], [&](int64_t k, int32_t j) {
+        if (j != i && (!partly || (list.seen_by[k] >> (i - list.first[cluster]) & 1)))
+            found(j);
+    });
 }
 
 // The rows of single particles, from their clusters': exactly the neighbours within the radius.

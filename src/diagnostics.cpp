@@ -23,7 +23,7 @@ gp_state measure_sums(const World &world) {
     s.retries = world.retries;
     s.max_compression = world.max_compression;
     s.n_particles = p.count;
-    s.n_awake = p.count;
+    s.n_awake = p.count - std::count(p.asleep.begin(), p.asleep.begin() + (p.asleep.empty() ? 0 : p.count), 1);
 
     const Energies e = measure_energies(world);
     s.kinetic = e.kinetic;

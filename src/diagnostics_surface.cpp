@@ -26,7 +26,7 @@ constexpr double full_fraction = 0.9; // that the inside of the deposit reaches 
 constexpr double penetration_allowed = 0.25; // dl
 constexpr double past_end = 0.5;             // dl, to which a plate mirrors beyond its ends
 
-const double pi = std::acos(-1.0);
+constexpr double pi = 3.14159265358979323846;
 
 } // namespace
 

@@ -29,28 +29,34 @@ void CellGrid::sort(Particles &particles, double cell_width, double cell_height,
     columns_ = column_of(box_.x_max) + 1;
     rows_ = row_of(box_.y_max) + 1;
 
-    unsorted_.resize(n);
     order_.resize(n);
-    for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
-        for (int64_t i = begin; i < end; ++i)
-            unsorted_[i] = row_of(particles.y[i]) * columns_ + column_of(particles.x[i]);
-    });
-
+    const auto number_cells = [&](auto &cell) {
+        for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end; ++i)
+                cell[i] = static_cast<std::remove_reference_t<decltype(cell[i])>>(row_of(particles.y[i]) * columns_ +
+                                                                                  column_of(particles.x[i]));
+        });
+    };
     const bool dense =
         static_cast<double>(columns_) * static_cast<double>(rows_) <= 4.0 * static_cast<double>(n) + 4096.0;
     if (dense) {
         key_.clear();
+        Field<double> &cell = particles.ay; // exact: they are few
+        number_cells(cell);
+        const auto cell_of = [&](int64_t i) { return static_cast<int64_t>(cell[i]); };
         start_.assign(columns_ * rows_ + 1, 0);
         for (int64_t i = 0; i < n; ++i)
-            ++start_[unsorted_[i] + 1];
+            ++start_[cell_of(i) + 1];
         std::partial_sum(start_.begin(), start_.end(), start_.begin());
         for (int64_t i = 0; i < n; ++i)
-            order_[start_[unsorted_[i]]++] = static_cast<int32_t>(i);
+            order_[start_[cell_of(i)]++] = static_cast<int32_t>(i);
         // Filling moved each cell's start to its end, which is the next cell's start.
         std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
         start_[0] = 0;
     } else {
         start_.clear();
+        unsorted_.resize(n);
+        number_cells(unsorted_);
         std::iota(order_.begin(), order_.end(), 0);
         std::sort(order_.begin(), order_.end(), [&](int32_t a, int32_t b) {
             return unsorted_[a] != unsorted_[b] ? unsorted_[a] < unsorted_[b] : a < b;

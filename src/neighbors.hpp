@@ -34,7 +34,8 @@ inline Box box_around(const Segment &s, double margin) {
 // sorted keys replaces the table of cells.
 class CellGrid {
 public:
-    // Sorts the particles (their carried fields are reordered) into cells of the given size. The sort is stable.
+    // Sorts the particles (their carried fields are reordered) into cells of the given size. The sort is stable. Accelerations
+    // are over: their memory is what it works in.
     void sort(Particles &particles, double cell_width, double cell_height, int threads);
 
     const Box &box() const { return box_; }
@@ -70,10 +71,10 @@ private:
     Box box_;
     double inverse_width_ = 0, inverse_height_ = 0;
     int64_t columns_ = 0, rows_ = 0, count_ = 0;
-    Field<int32_t> start_; // table of cells, when it is small enough
-    Field<int64_t> key_;   // cell of each sorted particle, for the search otherwise
-    Field<int32_t> order_; // sorted position -> old position
-    Field<int64_t> unsorted_;
+    Field<int32_t> start_;    // table of cells, when it is small enough
+    Field<int64_t> key_;      // cell of each sorted particle, for the search otherwise
+    Field<int32_t> order_;    // sorted position -> old position
+    Field<int64_t> unsorted_; // cells of the particles in their old order, for the search
 };
 
 // Calls found(begin, end) for the runs of particles and images that may lie in the box, in a fixed order.

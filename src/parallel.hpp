@@ -7,15 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 
-// Pair loops are compiled once per instruction set and chosen when the library is loaded. Sanitizers run before the
-// loader has resolved such functions, and clang's OpenMP outlining defeats them, so they are for plain g++ builds.
-#if defined(GP_ONE_VERSION)
-#define GP_MULTIVERSION __attribute__((target(GP_ONE_VERSION)))
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(GP_NO_MULTIVERSION)
-#define GP_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define GP_MULTIVERSION
-#endif
 #define GP_INLINE inline __attribute__((always_inline))
 
 namespace gp {
@@ -40,13 +31,8 @@ struct SharedWork {
 };
 void share_out(const SharedWork &work, int threads);
 
-// Calls body(block, begin, end) for the blocks of n items. body must not throw: nobody would catch it in another thread.
-template <int64_t Size = block_size, class Body> void for_each_block(int threads, int64_t n, const Body &body) {
-    const int64_t blocks = block_count<Size>(n);
-    const auto run = [&](int64_t begin, int64_t end) {
-        for (int64_t block = begin; block < end; ++block)
-            body(block, block * Size, std::min(n, (block + 1) * Size));
-    };
+// Shares out run(begin, end) over `blocks` blocks. run must not throw: nobody would catch it in another thread.
+template <class Run> void for_each_share(int threads, int64_t blocks, const Run &run) {
     // A thread with less than this to do costs more than it brings.
     constexpr int64_t least_blocks = 8;
     const int useful = static_cast<int>(std::max<int64_t>(1, std::min<int64_t>(threads, blocks / least_blocks)));
@@ -57,10 +43,28 @@ template <int64_t Size = block_size, class Body> void for_each_block(int threads
     // Blocks are not alike (what flows has more to do, and lies above what rests), and a processor may be taken away for
     // a while: whoever is done takes the next share. Were they all alike, each thread would have so many:
     constexpr int64_t turns = 8;
-    using Run = decltype(run);
     share_out({[](const void *it, int64_t begin, int64_t end) { (*static_cast<const Run *>(it))(begin, end); }, &run,
                blocks, std::max<int64_t>(1, blocks / (useful * turns))},
               useful);
+}
+
+// Calls body(block, begin, end) for the blocks of n items.
+template <int64_t Size = block_size, class Body> void for_each_block(int threads, int64_t n, const Body &body) {
+    for_each_share(threads, block_count<Size>(n), [&](int64_t begin, int64_t end) {
+        for (int64_t block = begin; block < end; ++block)
+            body(block, block * Size, std::min(n, (block + 1) * Size));
+    });
+}
+
+// For some of them.
+template <int64_t Size = block_size, class Body>
+void for_each_chosen_block(int threads, int64_t n, const int32_t *chosen, int64_t count, const Body &body) {
+    for_each_share(threads, count, [&](int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k) {
+            const int64_t block = chosen[k];
+            body(block, block * Size, std::min(n, (block + 1) * Size));
+        }
+    });
 }
 
 } // namespace gp

@@ -10,7 +10,7 @@ void Particles::allocate(int64_t n, const Optional &use) {
     id.resize(size);
     column.resize(size);
     for (Field<double> *field : {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &lxx, &lxy, &lyx, &lyy, &cxx, &cxy,
-                                 &ax, &ay, &push_x, &push_y, &scratch_double_})
+                                 &ax, &ay, &push_x, &push_y})
         field->resize(size);
     if (use.shape)
         for (Field<double> *field : {&gxx, &gxy, &gyy, &cyx, &cyy})
@@ -19,19 +19,21 @@ void Particles::allocate(int64_t n, const Optional &use) {
         syy.resize(size);
     if (use.stressed)
         stressed.resize(size);
-    if (use.carried)
-        carried.resize(size, 1.0);
-    if (use.flowing) {
-        flowing.resize(size);
-        crowding.resize(size);
+    if (use.bearing_flow)
+        bearing_flow.resize(size);
+    if (use.densities) {
+        rest.resize(size);
+        inverse_rest.resize(size);
     }
-    if (use.bearing)
-        bearing.resize(size);
     if (use.fluidity)
         for (Field<double> *field : {&fluidity, &fluid_seen, &fluid_pull, &fluid_pace})
             field->resize(size);
-    scratch_int64_.resize(size);
-    scratch_int32_.resize(size);
+    if (use.sleep) {
+        repose.resize(size);
+        asleep.resize(size);
+        scratch_repose_.resize(size);
+        scratch_uint8_.resize(size);
+    }
 }
 
 void Particles::make_room(int64_t images) {
@@ -44,50 +46,65 @@ void Particles::make_room(int64_t images) {
         field.resize(size);
     };
     grow(column);
-    grow(scratch_int32_);
-    // The gradient and its like are not read of neighbours, but swap their memory with fields that are.
-    for (Field<double> *field : {&x,
-                                 &y,
-                                 &vx,
-                                 &vy,
-                                 &density,
-                                 &pressure,
-                                 &sxx,
-                                 &sxy,
-                                 &lxx,
-                                 &lxy,
-                                 &lyx,
-                                 &lyy,
-                                 &cxx,
-                                 &cxy,
-                                 &cyx,
-                                 &cyy,
-                                 &syy,
-                                 &stressed,
-                                 &flowing,
-                                 &bearing,
-                                 &fluidity,
-                                 &fluid_seen,
-                                 &scratch_double_})
+    grow(asleep);
+    grow(scratch_uint8_);
+    // The gradient and its like are not read of neighbours, but their memory changes places with that of fields that are.
+    for (Field<double> *field :
+         {&x,      &y,   &vx,       &vy,   &density,      &pressure, &sxx,        &sxy,         &lxx, &lxy,
+          &lyx,    &lyy, &cxx,      &cxy,  &cyx,          &cyy,      &syy,        &ax,          &ay,  &push_x,
+          &push_y, &gyy, &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &bearing_flow})
         grow(*field);
 }
 
 void Particles::reorder(const Field<int32_t> &old_index, int threads) {
-    const auto gather = [&](auto &field, auto &scratch) {
-        if (field.empty())
-            return;
+    // Any number of a field as a double: whole ones are exact up to 2^53.
+    const auto gather = [&](const auto &field) {
+        for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end; ++i)
+                ax[i] = static_cast<double>(field[old_index[i]]);
+        });
+    };
+    const auto gather_whole = [&](auto &field) {
+        gather(field);
+        for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
+            for (int64_t i = begin; i < end; ++i)
+                field[i] = static_cast<std::remove_reference_t<decltype(field[i])>>(ax[i]);
+        });
+    };
+    gather_whole(id);
+    gather_whole(column);
+    // The gradient is made anew in each step, but readers may ask for it between a reorder and the next one.
+    for (Field<double> *field :
+         {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &syy, &fluidity, &lxx, &lxy, &lyx, &lyy})
+        if (!field->empty()) {
+            gather(*field);
+            field->swap(ax);
+        }
+    const auto gather_items = [&](auto &field, auto &scratch) {
         for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
             for (int64_t i = begin; i < end; ++i)
                 scratch[i] = field[old_index[i]];
         });
         field.swap(scratch);
     };
-    gather(id, scratch_int64_);
-    gather(column, scratch_int32_);
-    // The gradient is made anew in each step, but readers may ask for it between a reorder and the next one.
-    for (Field<double> *field :
-         {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &syy, &fluidity, &lxx, &lxy, &lyx, &lyy})
-        gather(*field, scratch_double_);
+    if (repose.empty())
+        return;
+    gather_items(repose, scratch_repose_);
+    gather_items(asleep, scratch_uint8_);
+}
+
+void Particles::give_back(bool stressed_in_shape) {
+    const auto give = [](Field<double> &from, Field<double> &to) {
+        if (!from.empty())
+            hand_over(from, to);
+    };
+    give(flowing, ax);
+    if (ay.empty())
+        give(bearing.empty() ? bearing_flow : bearing, ay);
+    give(crowding, cyx);
+    give(carried, cyy);
+    if (stressed_in_shape)
+        give(stressed, gyy);
 }
 
 } // namespace gp

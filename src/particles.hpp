@@ -23,6 +23,23 @@ template <class T> struct CacheLineAllocator {
 
 template <class T> using Field = std::vector<T, CacheLineAllocator<T>>;
 
+// The values of a field are over, those of another begin: it takes the memory. A field without memory has no values, so that
+// what reads it too early or too late does not go unseen.
+inline void hand_over(Field<double> &from, Field<double> &to) {
+    to.swap(from);
+}
+
+// What a particle remembers so that it can be told whether it rests (stages/sleep.cpp). Single precision does: it is compared with
+// hundredths.
+struct Repose {
+    float quiet_for = 0;                  // s, that it has been quiet
+    float way_x = 0, way_y = 0;           // m, gone since
+    float pressure = 0, sxx = 0, sxy = 0; // Pa, when that began
+    float fluidity = 0;                   // 1/s, likewise
+    double gxx = 0, gxy = 0, gyy = 0;     // 1/m2, the inverse shape tensor, and
+    double stressed = 0;                  // the share of the penalty: of what is quiet, to stay so while it sleeps
+};
+
 struct Particles {
     int64_t count = 0;
     double volume = 0; // m2, spacing^2, of every particle
@@ -37,31 +54,44 @@ struct Particles {
     Field<double> sxx, sxy; // Pa, deviatoric stress
     Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
 
+    Field<Repose> repose;  // only with gp_config.sleep
+    Field<uint8_t> asleep; // 1 or 0, likewise
+
     Field<double> fluidity; // 1/s, g; only where a material has one (material/fluidity.hpp)
 
     // Made anew in each step.
     Field<double> lxx, lxy, lyx, lyy; // 1/s, velocity gradient L_ab = du_a/dr_b
     Field<double> gxx, gxy, gyy;      // 1/m2, inverse shape tensor K^-1
     Field<double> cxx, cxy, cyx, cyy; // sigma K^-1, less the penalty's half of L: what a neighbour needs of a particle
-    Field<double> stressed;           // share of the penalty: where p > 0, more inside the yield surface; only with it
-    Field<double> carried;            // share of its stress that a particle near a plate carries; only with plates
-    Field<double> flowing;            // 1 at yield or without stress, else 0; only where the density is integrated
-    Field<double> crowding;           // sum of w where it flows, plates included, else 0; only with that
-    Field<double> bearing;            // 1 under pressure, else 0; only with density diffusion or fluidity
     Field<double> fluid_seen;         // 1/s, fluidity where there is pressure, else 0
     Field<double> fluid_pull, fluid_pace; // 1/s, 1: what its neighbours pull the fluidity to, and how hard
     Field<double> ax, ay;                 // m/s2, by the forces
     Field<double> push_x, push_y;         // m/s, by collisions and contacts with plates after that
 
+    // Made anew, and over within the step: in the memory of fields that are made later.
+    Field<double> flowing; // 1 at yield or without stress, else 0. From the stage flowing to gradient; then ax
+    Field<double> bearing; // 1 under pressure, else 0; in gradient, with fluidity or several densities; then ay
+    // `flowing` under pressure, else 0: in gradient, with density diffusion of one density; then ay. With fluidity, too, in
+    // memory of its own.
+    Field<double> bearing_flow;
+    Field<double> crowding; // sum of w where it flows, else 0. From gradient to density_of_spacing; then cyx
+    Field<double>
+        carried; // share of its stress that a particle near a plate carries. From gradient to density; then cyy
+    // Share of the penalty: where p > 0, more inside the yield surface; only with it. From stress to force; in the default scheme
+    // in the memory of gyy, with which stress has done.
+    Field<double> stressed;
+    // kg/m3, m3/kg: the material's own density, for neighbours in gradient; only where there are several.
+    Field<double> rest, inverse_rest;
+
     // Fields that only some scenes need.
     struct Optional {
-        bool stressed; // penalty
-        bool flowing;  // density by continuity
-        bool bearing;  // density diffusion, fluidity
-        bool fluidity; // a material has one
-        bool carried;  // plates, but by number density
-        bool shape;    // inverse shape tensor and the second row of sigma K^-1
+        bool stressed;     // penalty, but in the default scheme
+        bool fluidity;     // a material has one
+        bool bearing_flow; // density diffusion of one density beside fluidity
+        bool densities;    // density diffusion between materials of different density
+        bool shape;        // inverse shape tensor and the second row of sigma K^-1
         bool syy;
+        bool sleep;
     };
     // Gives every field in use its size.
     void allocate(int64_t n, const Optional &use);
@@ -69,18 +99,15 @@ struct Particles {
     // Makes room for images of particles behind the real ones (periodic.hpp) in every field that neighbours read.
     void make_room(int64_t images);
 
-    // Puts the carried fields into the order old_index[new]; scratch arrays keep their memory between calls.
+    // Puts the carried fields into the order old_index[new], by way of ax: between steps nobody reads accelerations.
     void reorder(const Field<int32_t> &old_index, int threads);
 
-    int64_t scratch_bytes() const {
-        return static_cast<int64_t>((scratch_double_.capacity() + scratch_int64_.capacity()) * 8 +
-                                    scratch_int32_.capacity() * 4);
-    }
+    // After a step that did not come to its end: what lies in the memory of other fields gives it back.
+    void give_back(bool stressed_in_shape);
 
 private:
-    Field<double> scratch_double_;
-    Field<int64_t> scratch_int64_;
-    Field<int32_t> scratch_int32_;
+    Field<Repose> scratch_repose_; // with sleep
+    Field<uint8_t> scratch_uint8_;
 };
 
 } // namespace gp

@@ -24,6 +24,7 @@ Traits traits_of(const Scene &scene, const Constants &constants) {
     t.collisions = scene.config().collision_distance > 0;
     t.diffusion = scene.config().density_diffusion > 0;
     t.fluid = constants.fluid;
+    t.sleep = scene.config().sleep == 1;
     return t;
 }
 
@@ -31,6 +32,14 @@ namespace {
 
 bool in_reach(const World &world) {
     return world.walls.in_reach();
+}
+
+bool any_awake(const World &world) {
+    return !world.sleep.all();
+}
+
+bool awake_in_reach(const World &world) {
+    return world.walls.in_reach() && any_awake(world);
 }
 
 bool plates_move(const World &world) {
@@ -46,7 +55,13 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
     const char *none_near = "no plate is within reach of material";
     const char *not_periodic = "the scene is not periodic";
     const char *no_side_walls = t.channel ? "channel_friction is 0" : "channel_width is 0";
-    const bool walls = t.particles && t.plates;
+    const bool walls = t.particles && t.plates, sleep = t.particles && t.sleep;
+    // Where all material sleeps these have no work.
+    const auto awake = sleep ? any_awake : nullptr;
+    const auto awake_near = sleep ? awake_in_reach : in_reach;
+    const char *all_sleep = "all material sleeps";
+    const char *no_work = sleep ? "no plate is within reach of material that is awake" : none_near;
+    const char *no_sleep = t.particles ? "sleep is 0" : no_particles;
     // clang-format off
     return {
         // name, when the scene needs it, why, why not, function, whether it has work now, what it says when not
@@ -54,55 +69,59 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"move_plates", t.plates, "a plate moves", no_plates,
          stages::move_plates, plates_move, "no plate moves now"},
         {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
-        // copies what the next stages overwrite
-        {"keep_fields", t.particles, "a step that diverges is taken back", no_particles, keep_fields, nullptr, ""},
-        // reads velocity; writes ghost velocity
-        {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
-         stages::wall_velocity, in_reach, none_near},
-        // reads pressure, stress; writes which particles flow
+        // reads what moved, by how the step before ended; writes who is awake
+        {"wake", sleep, "sleep is 1: what nothing reaches is left out", no_sleep, stages::wake, nullptr, ""},
+        // copies what the next stages overwrite; takes the pushes' memory for the gradient before the step, until integrate
+        {"keep_fields", t.particles, "a step that diverges is taken back", no_particles, keep_fields, awake, all_sleep},
+        // reads pressure, stress; writes which particles flow, in the acceleration's memory
         {"flowing", t.particles, "densities are tied to each other and to the spacing where it flows", no_particles,
-         stages::flowing, nullptr, ""},
+         stages::flowing, awake, all_sleep},
+        // reads velocity, which particles flow; writes ghost velocity
+        {"wall_velocity", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
+         stages::wall_velocity, awake_near, no_work},
         // reads position, velocity; writes shape tensor, velocity gradient and, where it flows, number density; with density
         // diffusion also reads density, and writes what is exchanged: one loop over pairs for all
         {"gradient", t.particles, t.diffusion ? "particles interact; with the pair sums of density_diffusion"
                                               : "particles interact",
-         no_particles, t.diffusion ? stages::gradient_and_exchange : stages::gradient, nullptr, ""},
+         no_particles, t.diffusion ? stages::gradient_and_exchange : stages::gradient, awake, all_sleep},
         // reads what is exchanged; writes density
         {"density_diffusion", t.particles && t.diffusion, "density_diffusion > 0", "density_diffusion is 0",
-         stages::density_diffusion, nullptr, ""},
+         stages::density_diffusion, awake, all_sleep},
         // reads number density, velocity gradient; writes density
         {"density_of_spacing", t.particles, "what flows keeps its volume", no_particles, stages::density_of_spacing,
-         nullptr, ""},
+         awake, all_sleep},
         // reads velocity gradient; writes density, pressure
-        {"density", t.particles, "density by continuity", no_particles, stages::density, nullptr, ""},
+        {"density", t.particles, "density by continuity", no_particles, stages::density, awake, all_sleep},
         // reads what neighbours pull the fluidity to, summed up by the gradient; writes it for the stress
         {"fluidity", t.particles && t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
-         stages::fluidity, nullptr, ""},
-        // reads velocity gradient, pressure; writes stress, sigma K^-1; with fluidity that, too
-        {"stress", t.particles, "elastic trial and return map", no_particles, stages::stress, nullptr, ""},
+         stages::fluidity, awake, all_sleep},
+        // reads velocity gradient, pressure, shape tensor for the last time; writes stress, sigma K^-1; with fluidity that, too
+        {"stress", t.particles, "elastic trial and return map", no_particles, stages::stress, awake, all_sleep},
         // reads pressure, stress; writes ghost stress
         {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
-         stages::wall_stress, in_reach, none_near},
+         stages::wall_stress, awake_near, no_work},
         // reads sigma K^-1, velocity, velocity gradient; writes acceleration
         {"force", t.particles, t.penalty ? "force states, gravity, zero-energy penalty" : "force states, gravity",
-         no_particles, stages::force, nullptr, ""},
+         no_particles, stages::force, awake, all_sleep},
         // reads acceleration; writes velocity, position
-        {"integrate", t.particles, "particles move", no_particles, stages::integrate, nullptr, ""},
+        {"integrate", t.particles, "particles move", no_particles, stages::integrate, awake, all_sleep},
         // reads contact forces; writes velocity, position
         {"wall_friction", walls && t.friction_plates, "a plate has friction", "no plate has friction",
-         stages::wall_friction, in_reach, none_near},
+         stages::wall_friction, awake_near, no_work},
         // reads pressure; writes velocity, position
         {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",
-         t.particles ? no_side_walls : no_particles, stages::side_wall_friction, nullptr, ""},
+         t.particles ? no_side_walls : no_particles, stages::side_wall_friction, awake, all_sleep},
         // reads position; writes velocity, position
         {"collide", t.particles && t.collisions, "collision_distance > 0", "collision_distance is 0",
-         stages::collide, nullptr, ""},
+         stages::collide, awake, all_sleep},
         {"wall_contact", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
-         stages::wall_contact, in_reach, none_near},
+         stages::wall_contact, awake_near, no_work},
         // reads position, velocity; writes those of the images
         {"update_images", t.particles && t.periodic, "the scene is periodic in x", t.particles ? not_periodic : no_particles,
-         stages::update_images, nullptr, ""},
+         stages::update_images, awake, all_sleep},
         {"account", t.particles, "energy ledger, loads, extremes", no_particles, stages::account, nullptr, ""},
+        // reads velocity, stress; writes who is awake, and the velocity of what falls asleep
+        {"sleep", sleep, "sleep is 1: what rests is left out", no_sleep, stages::sleep, awake, all_sleep},
     };
     // clang-format on
 }
@@ -202,26 +221,38 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("stress_over_shape", bytes_of_all(p.cxx, p.cxy, p.cyx, p.cyy));
     common("acceleration", bytes_of_all(p.ax, p.ay));
     common("push", bytes_of_all(p.push_x, p.push_y));
-    entries.push_back(
-        field_entry("stressed", t.penalty,
-                    t.penalty ? "the zero-energy penalty acts on stressed material" : "zero_energy_penalty is 0",
-                    bytes_of(p.stressed)));
+    const bool own_memory = t.scheme != Scheme::adjoint;
+    entries.push_back(field_entry(
+        "stressed", t.penalty,
+        !t.penalty   ? "zero_energy_penalty is 0"
+        : own_memory ? "the zero-energy penalty acts on stressed material"
+                     : "the zero-energy penalty acts on stressed material; in the inverse shape tensor's memory",
+        bytes_of(p.stressed)));
     const char *by_number = "the density is that of the positions";
-    optional("flowing", !viscous, "densities are tied where it flows", by_number, bytes_of(p.flowing));
-    optional("crowding", !viscous, "what flows keeps its volume", by_number, bytes_of(p.crowding));
+    optional("flowing", !viscous, "densities are tied where it flows; in the acceleration's memory", by_number,
+             bytes_of(p.flowing));
+    optional("crowding", !viscous, "what flows keeps its volume; in the memory of stress over shape", by_number,
+             bytes_of(p.crowding));
     entries.push_back(field_entry("bearing", t.diffusion || t.fluid,
-                                  t.diffusion ? "density_diffusion > 0"
-                                  : t.fluid   ? "nonlocal_amplitude > 0"
+                                  t.diffusion ? "density_diffusion > 0; in the acceleration's memory"
+                                  : t.fluid   ? "nonlocal_amplitude > 0; in the acceleration's memory"
                                               : "density_diffusion and nonlocal_amplitude are 0",
-                                  bytes_of(p.bearing)));
+                                  bytes_of_all(p.bearing, p.bearing_flow)));
+    const bool exchanged = t.diffusion && !world.constants.one_density();
+    entries.push_back(field_entry("rest_density", exchanged,
+                                  !t.diffusion ? "density_diffusion is 0"
+                                  : exchanged  ? "density diffusion between materials of different density"
+                                               : "all material is of one density",
+                                  bytes_of_all(p.rest, p.inverse_rest)));
     optional("fluidity", t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
              bytes_of_all(p.fluidity, p.fluid_seen) + bytes_of_all(p.fluid_pull, p.fluid_pace));
     const bool flights = t.plates && !by_number_density(t.scheme);
-    entries.push_back(field_entry("carried", flights,
-                                  flights     ? "grains in flight above a plate carry no stress"
-                                  : !t.plates ? "the scene has no plates"
-                                              : "the paper's schemes know no flight",
-                                  bytes_of(p.carried)));
+    entries.push_back(
+        field_entry("carried", flights,
+                    flights     ? "grains in flight above a plate carry no stress; in the memory of stress over shape"
+                    : !t.plates ? "the scene has no plates"
+                                : "the paper's schemes know no flight",
+                    bytes_of(p.carried)));
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));
@@ -230,6 +261,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
         kept += bytes_of(field);
     for (const Field<double> &field : world.step_start.made)
         kept += bytes_of(field);
+    kept += bytes_of_all(world.step_start.sxx, world.step_start.sxy);
     optional("kept_fields", true, "a step that diverges is taken back", "", kept);
     common("cells", world.grid.bytes());
     common("clusters", world.clusters.bytes());
@@ -241,7 +273,8 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                   world.images.bytes()));
     optional("viscous_system", t.scheme == Scheme::implicit, "the implicit solve's operators and vectors",
              "no implicit solve", world.viscous.bytes() + world.mirrors.bytes());
-    common("sort_scratch", p.scratch_bytes());
+    optional("sleep", t.sleep, "sleep is 1: how long it has rested, blocks and loads of what sleeps", "sleep is 0",
+             bytes_of_all(p.repose, p.asleep) + world.sleep.bytes());
     common("block_sums", bytes_of_all(world.sums, world.ranges));
     entries.push_back(field_entry("ghosts", t.plates && world.walls.in_reach(),
                                   !t.plates ? "the scene has no plates"

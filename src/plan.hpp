@@ -11,7 +11,8 @@ namespace gp {
 // The scene's choices.
 struct Traits {
     Scheme scheme;
-    bool particles, periodic, plates, friction_plates, channel, side_walls, penalty, collisions, diffusion, fluid;
+    bool particles, periodic, plates, friction_plates, channel, side_walls, penalty, collisions, diffusion, fluid,
+        sleep;
 };
 
 Traits traits_of(const Scene &scene, const Constants &constants);

@@ -63,6 +63,9 @@ void check_config(const gp_config &c) {
     require_between("gp_config.implicit_iterations", c.implicit_iterations, 1, 10000);
     require_choice("gp_config.allow_unstable_step", c.allow_unstable_step, 2);
     require_choice("gp_config.retry_halvings", c.retry_halvings, 21);
+    require_choice("gp_config.sleep", c.sleep, 2);
+    if (c.sleep == 1 && scheme_of(c) != Scheme::adjoint)
+        throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = 1: expected 0, sleep is of the default scheme");
 
     if (by_number_density(scheme_of(c))) {
         const char *none = "0: the schemes with GP_DENSITY_NUMBER have none";

@@ -171,6 +171,14 @@ struct Constants {
     std::vector<MaterialConstants> materials;
     std::vector<int32_t> body_material;
 
+    // Are all bodies of one density?
+    bool one_density() const {
+        for (const int32_t material : body_material)
+            if (materials[material].density != materials[body_material[0]].density)
+                return false;
+        return true;
+    }
+
     // s, sqrt(fall_height/g), or spacing/c0 x 100 without gravity
     double time_scale() const {
         const double g = gravity.norm();

@@ -245,6 +245,8 @@ void Sim::set_gravity(double gx, double gy) {
         if (gravity == world_->constants.gravity)
             return;
         change_gravity(*world_, gravity);
+        if (world_->sleep.in_use)
+            stages::wake_all(*world_);
         ++epoch_;
         if (log_)
             warn(warnings_.of_gravity(*world_));

@@ -37,7 +37,7 @@ struct Neighborhood {
 
 // Adds neighbours, the particle itself among them. Eighths are centred on axes and diagonals: no place of a lattice lies on a
 // border.
-GP_MULTIVERSION void add_run(const double *__restrict x, const double *__restrict y, int64_t n, Neighborhood &about) {
+void add_run(const double *__restrict x, const double *__restrict y, int64_t n, Neighborhood &about) {
     constexpr double tan_22 = 0.41421356237309503; // of 22.5 degrees
     const double own_x = about.x, own_y = about.y, inverse2 = about.inverse2, inner = about.inner;
     int64_t sum = 0, eighths = 0;

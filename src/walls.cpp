@@ -10,13 +10,13 @@
 namespace gp {
 
 int64_t Walls::bytes() const {
-    int64_t total = particles_of_ghost.bytes() + chains_.bytes() + cells_.bytes();
+    int64_t total = particles_of_ghost.bytes() + lanes.bytes() + chains_.bytes() + cells_.bytes();
     for (const Field<double> *field :
          {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_lean, &ghost_distance, &ghost_shift, &ghost_x,
           &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
         total += static_cast<int64_t>(field->capacity() * sizeof(double));
     for (const Field<int32_t> *field : {&ghost_facet, &ghost_chain, &wall_particle, &ghost_of_contact, &contact_start,
-                                        &fill_, &seeing_, &passed_, &about_, &passed_of_contact_})
+                                        &passed_, &about_, &passed_of_contact_})
         total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
     return total +
            static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
@@ -131,9 +131,7 @@ void Walls::place_candidates(const CellGrid &grid, double radius, double spacing
     places_.clear();
     for (const FacetChains::Chain &chain : chains_.all())
         chains_.add_places(chain, images_, grid.box(), radius, spacing, places_);
-    candidates_.clear();
-    for (const WallPlace &place : places_)
-        candidates_.push_back({place, 0, 0, false});
+    candidates_.assign(places_.size(), {0, 0, false});
 }
 
 namespace {
@@ -157,16 +155,17 @@ void Walls::find_seeing(const Particles &particles, const CellGrid &grid, const 
     const auto count = static_cast<int64_t>(candidates_.size());
     for_each_block<ghost_block_size>(threads, count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k)
-            for_each_within(particles, grid, images, candidates_[k].place, radius,
-                            [&](int64_t) { ++candidates_[k].neighbors; });
+            for_each_within(particles, grid, images, places_[k], radius, [&](int64_t) { ++candidates_[k].neighbors; });
     });
     int64_t entries = 0;
     for (Candidate &candidate : candidates_) {
         candidate.first = entries;
         entries += candidate.neighbors;
     }
-    seeing_.resize(entries);
-    passed_.resize(entries);
+    Field<int32_t> &seeing = particles_of_ghost.index;
+    seeing.resize(entries);
+    const bool several = chains_.any(); // else what passes a chain passes its only facet
+    passed_.resize(several ? entries : 0);
     const int64_t room = cells_.longest();
     about_.resize(room * block_count<ghost_block_size>(count));
     for_each_block<ghost_block_size>(threads, count, [&](int64_t block, int64_t begin, int64_t end) {
@@ -176,26 +175,41 @@ void Walls::find_seeing(const Particles &particles, const CellGrid &grid, const 
             if (ghost.neighbors == 0)
                 continue;
             ghost.neighbors = 0;
-            if (!sight.look_about(ghost.place, cells_))
+            if (!sight.look_about(places_[k], cells_))
                 continue;
-            for_each_within(particles, grid, images, ghost.place, radius, [&](int64_t i) {
-                const int32_t image = sight.seen_through(ghost.place, {particles.x[i], particles.y[i]});
+            for_each_within(particles, grid, images, places_[k], radius, [&](int64_t i) {
+                const int32_t image = sight.seen_through(places_[k], {particles.x[i], particles.y[i]});
                 if (image < 0)
                     return;
                 const int64_t entry = ghost.first + ghost.neighbors++;
-                seeing_[entry] = static_cast<int32_t>(i);
-                passed_[entry] = images_[image].facet;
+                seeing[entry] = static_cast<int32_t>(i);
+                if (several)
+                    passed_[entry] = images_[image].facet;
                 ghost.seen |= i < particles.count;
             });
         }
     });
 }
 
-// Candidates that a particle sees become ghosts.
+// Candidates that a particle sees become ghosts; what sees them moves together.
 void Walls::keep_seen() {
-    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
-                                     [](const Candidate &candidate) { return !candidate.seen; }),
-                      candidates_.end());
+    std::size_t kept = 0;
+    int64_t entries = 0;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+        if (!candidates_[k].seen)
+            continue;
+        candidates_[kept] = candidates_[k];
+        places_[kept] = places_[k];
+        Candidate &ghost = candidates_[kept++];
+        for (Field<int32_t> *rows : {&particles_of_ghost.index, &passed_})
+            if (!rows->empty())
+                std::copy_n(rows->begin() + ghost.first, ghost.neighbors, rows->begin() + entries);
+        ghost.first = entries;
+        entries += ghost.neighbors;
+    }
+    candidates_.resize(kept);
+    places_.resize(kept);
+    particles_of_ghost.index.resize(entries);
     ghost_count = static_cast<int64_t>(candidates_.size());
     ghost_facet.resize(ghost_count);
     ghost_chain.resize(ghost_count);
@@ -207,7 +221,7 @@ void Walls::keep_seen() {
     particles_of_ghost.start.resize(ghost_count + 1);
     particles_of_ghost.start[0] = 0;
     for (int64_t k = 0; k < ghost_count; ++k) {
-        const WallPlace &place = candidates_[k].place;
+        const WallPlace &place = places_[k];
         const FacetImage &image = images_[place.image];
         ghost_facet[k] = image.facet;
         ghost_chain[k] = chains_.chain_of(place.image).number;
@@ -223,37 +237,35 @@ void Walls::keep_seen() {
         ghost_y[k] = place.y;
         particles_of_ghost.start[k + 1] = particles_of_ghost.start[k] + candidates_[k].neighbors;
     }
-    particles_of_ghost.index.resize(particles_of_ghost.start[ghost_count]);
-    for (int64_t k = 0; k < ghost_count; ++k)
-        std::copy_n(seeing_.begin() + candidates_[k].first, candidates_[k].neighbors,
-                    particles_of_ghost.index.begin() + particles_of_ghost.start[k]);
 }
 
 // The transposed list: ghosts of each particle, in ghost order and so chain by chain.
 void Walls::make_contacts(const Particles &particles) {
     const int64_t n = particles.count;
-    fill_.assign(n + 1, 0);
+    // First the ghosts of each particle, then its contacts, of which there are no more.
+    contact_start.assign(n + 1, 0);
     for (const int32_t i : particles_of_ghost.index)
         if (i < n)
-            ++fill_[i + 1];
-    std::partial_sum(fill_.begin(), fill_.end(), fill_.begin());
-    ghost_of_contact.resize(fill_[n]);
-    passed_of_contact_.resize(fill_[n]);
+            ++contact_start[i + 1];
+    std::partial_sum(contact_start.begin(), contact_start.end(), contact_start.begin());
+    ghost_of_contact.resize(contact_start[n]);
+    passed_of_contact_.resize(passed_.empty() ? 0 : contact_start[n]);
     for (int64_t k = 0; k < ghost_count; ++k)
-        for (int64_t e = 0; e < candidates_[k].neighbors; ++e)
-            if (const int32_t i = seeing_[candidates_[k].first + e]; i < n) {
-                const int32_t place = fill_[i]++;
+        for (int64_t e = particles_of_ghost.start[k]; e < particles_of_ghost.start[k + 1]; ++e)
+            if (const int32_t i = particles_of_ghost.index[e]; i < n) {
+                const int32_t place = contact_start[i]++; // becomes the end of row i
                 ghost_of_contact[place] = static_cast<int32_t>(k);
-                passed_of_contact_[place] = passed_[candidates_[k].first + e];
+                if (!passed_.empty())
+                    passed_of_contact_[place] = passed_[e];
             }
     contacts.clear();
-    contact_start.resize(n + 1);
     int32_t entry = 0;
     for (int64_t i = 0; i < n; ++i) {
+        const int32_t row_end = contact_start[i];
         contact_start[i] = static_cast<int32_t>(contacts.size());
-        while (entry < fill_[i]) { // fill_[i] has become the end of row i
+        while (entry < row_end) {
             const int32_t begin = entry, chain = ghost_chain[ghost_of_contact[entry]];
-            while (entry < fill_[i] && ghost_chain[ghost_of_contact[entry]] == chain)
+            while (entry < row_end && ghost_chain[ghost_of_contact[entry]] == chain)
                 ++entry;
             add_contacts(particles, i, begin, entry);
         }
@@ -266,7 +278,8 @@ void Walls::make_contacts(const Particles &particles) {
 void Walls::add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end) {
     while (begin < end) {
         int32_t stop = end;
-        const int32_t passed = passed_of_contact_[begin];
+        const int32_t passed =
+            passed_of_contact_.empty() ? ghost_facet[ghost_of_contact[begin]] : passed_of_contact_[begin];
         if (chains_.joined(passed)) {
             const Vector &tangent = facets[passed].segment.tangent;
             stop = begin;

@@ -15,6 +15,7 @@
 #include "particles.hpp"
 #include "plate.hpp"
 #include "segment_cells.hpp"
+#include "wall_lanes.hpp"
 
 namespace gp {
 
@@ -61,6 +62,7 @@ struct Walls {
     Field<int32_t> ghost_of_contact; // rows of contacts
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
     std::vector<Contact> contacts;   // ordered by particle, then chain
+    WallLanes lanes;                 // both, four at a time
 
     const Plate &plate_of(int32_t facet) const { return plates[facets[facet].plate]; }
 
@@ -142,9 +144,8 @@ private:
     void add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end);
     int32_t facing(int32_t facet, const Vector &at) const;
 
-    struct Candidate {
-        WallPlace place;
-        int64_t first;     // of its entries in seeing_ and passed_
+    struct Candidate {     // of the place of the same number
+        int64_t first;     // of its entries in particles_of_ghost and passed_
         int64_t neighbors; // particles and images that see it
         bool seen;         // by a particle
     };
@@ -152,11 +153,11 @@ private:
     FacetChains chains_;
     SegmentCells cells_;
     Barriers barriers_;
-    std::vector<WallPlace> places_;
+    std::vector<WallPlace> places_; // of ghosts
     std::vector<Candidate> candidates_;
-    Field<int32_t> seeing_, passed_; // who sees a candidate, and the plate that the way passes
-    Field<int32_t> about_;           // facets about a ghost, for each block of ghosts
-    Field<int32_t> fill_, passed_of_contact_;
+    Field<int32_t> passed_; // the plate that the way passes from who sees a candidate
+    Field<int32_t> about_;  // facets about a ghost, for each block of ghosts
+    Field<int32_t> passed_of_contact_;
 };
 
 } // namespace gp

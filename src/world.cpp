@@ -14,10 +14,12 @@ std::unique_ptr<World> make_world(const Scene &scene) {
 
     Particles &p = world->particles;
     p.volume = c.volume;
+    const bool exchanged = scene.config().density_diffusion > 0;
     p.allocate(scene.particle_count(),
-               {c.penalty > 0, !by_number_density(c.scheme), scene.config().density_diffusion > 0 || c.fluid, c.fluid,
-                !scene.plates().empty() && !by_number_density(c.scheme), c.scheme != Scheme::paper_local,
-                by_number_density(c.scheme)});
+               {c.penalty > 0 && c.scheme != Scheme::adjoint, c.fluid, exchanged && c.fluid && c.one_density(),
+                exchanged && !c.one_density(), c.scheme != Scheme::paper_local, by_number_density(c.scheme),
+                scene.config().sleep == 1});
+    world->sleep.in_use = scene.config().sleep == 1;
     const std::vector<InitialStress> stress = scene.initial_stress(c);
     for (int64_t i = 0; i < p.count; ++i) {
         p.id[i] = i;

@@ -1,6 +1,7 @@
 // Everything that the stages of a time step work on.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "scene.hpp"
+#include "sleep.hpp"
 #include "viscous_system.hpp"
 #include "walls.hpp"
 
@@ -84,7 +86,8 @@ struct StepStart {
     double shifted = 0;
     bool fields_kept = false;          // the next ones hold the present step's beginning
     std::vector<Field<double>> copied; // of fields that are changed in place
-    std::vector<Field<double>> made;   // of fields that are made anew: memory is exchanged, not copied
+    std::array<Field<double>, 4> made; // of the velocity gradient, made anew: memory is exchanged, not copied
+    Field<double> sxx, sxy;            // of the deviator, from stress on; only in the default scheme
 };
 
 // What the neighbour lists were made of. A checkpoint keeps it in place of the lists, which it makes anew from it.
@@ -124,6 +127,7 @@ struct World {
     double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
     double fastest = 0;       // m/s, bound on any particle's speed
 
+    Sleep sleep;
     std::vector<BlockSums> sums;
     std::vector<BlockRange> ranges;
     Field<uint8_t> colliding;    // partners of each particle in this step's collisions

@@ -164,6 +164,10 @@ two threads could at most.
 
 {lean.threads(collection)}
 
+## Recommended settings, with sleep
+
+[settings.md](settings.md): what a draft, a standard and a fine run cost and err now, measured by hand; `granperi.settings` in Python.
+
 ## The hot path
 
 [hot-path.md](hot-path.md): what a step costs and what was done about it, each change with prediction and measurement, written by

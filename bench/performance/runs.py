@@ -271,8 +271,8 @@ BUILDS = {
     "default": (),
     "without HDF5": ("HDF5=OFF",),
     "without OpenMP": ("OPENMP=OFF",),
-    "without clones for AVX2, AVX-512": ("MULTIVERSION=OFF",),
-    "without all three": ("HDF5=OFF", "OPENMP=OFF", "MULTIVERSION=OFF"),
+    "for x86-64 alone": ("LEVEL=one",),
+    "without all three": ("HDF5=OFF", "OPENMP=OFF", "LEVEL=one"),
 }
 
 

@@ -126,6 +126,9 @@ module granperi_raw
         integer(c_int32_t) :: retry_halvings
             !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
             !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
+        integer(c_int32_t) :: sleep
+            !! 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in every step. Only
+            !! with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0]
     end type
 
     type, bind(c) :: gp_material
@@ -531,7 +534,12 @@ module granperi_raw
             type(c_ptr) :: answer
         end function
 
-        !> 1 if this build has the named feature, else 0. Features: "hdf5", "openmp". NULL or an unknown name gives 0.
+        !> 1 if this build has the named feature, else 0. Features: "hdf5", "openmp", and the instruction set that the
+        !> engine runs with, one of "x86-64", "x86-64-v2", "x86-64-v3" (AVX2, FMA), "x86-64-v4" (AVX-512), "generic"
+        !> (another processor). NULL or an unknown name gives 0. A build for x86-64 has the engine twice, for x86-64 and
+        !> x86-64-v3, and takes what the processor has; their results differ in the last bits (docs/trust.md). The
+        !> environment variable GRANPERI_LEVEL, set to one of the names before the first call, asks for one; if it is
+        !> not the one that runs, gp_create and gp_load are GP_E_UNSUPPORTED.
         function gp_has_feature(name) bind(c, name="gp_has_feature") result(answer)
             import
             character(kind=c_char), intent(in), optional :: name(*)
@@ -689,7 +697,18 @@ module granperi_raw
         !> steps of half its size, one after the other, each of which is halved likewise if it diverges, up to that many
         !> times. Each of them is a whole step to the counter, the callback and the output, with GP_DT_RETRY in
         !> gp_state.dt_reason; what is undone nobody sees. After the two halves the size is chosen as always. Speeds
-        !> that ask for too small a step are not retried: the step begins with them.
+        !> that ask for too small a step are not retried: the step begins with them. Sleep. With gp_config.sleep = 1
+        !> material that rests is left out of the work, in blocks of 64 particles: each of them has gone no more than
+        !> 0.05 spacing dl within 8 sqrt(dl / g) (a mean speed of 0.006 sqrt(g dl)), their mean stress has changed by
+        !> less than 2 % of the pressure and of rho g dl, the wave that would go out if they stopped is half of that at
+        !> most, and all blocks that see them, within the horizon, are as quiet. Then their velocity is 0, density and
+        !> stress stay as they are, and plates go on to bear their mean load; neighbours see them as ever, and what
+        !> presses them less than the above is held, as by friction at rest. What of their motion is left counts as
+        !> dissipated, 1e-9 of a deposit's energy. They wake, at the latest in the step in which they would feel it,
+        !> when what is within the horizon moves or changes its stress by more than that; when a plate that they see
+        !> moves, turns, runs as a belt or is loaded; and all of them by gp_set_gravity. Beside a loaded plate and a
+        !> belt nothing sleeps, nor without gravity. Up to the first sleep the bits are those without it.
+        !> gp_state.n_awake tells how many are awake, gp_get_plan which stages have nothing to do.
         function gp_step(sim, n) bind(c, name="gp_step") result(answer)
             import
             type(c_ptr), value :: sim

@@ -144,7 +144,7 @@ contains
             horizon_length, nonlocal, stress, density, friction_factor, delta, collision_distance, &
             zero_energy_penalty, density_diffusion, channel_width, channel_friction, periodic_x_min, periodic_x_max, &
             threads, seed, jitter, bulk_viscosity, implicit_tolerance, implicit_iterations, allow_unstable_step, &
-            retry_halvings, status, message) result(made)
+            retry_halvings, sleep, status, message) result(made)
         integer(c_int32_t), intent(in), optional :: preset
         real(c_double), intent(in), optional :: spacing !! m, particle distance dl; 1e-9 .. 1e9 [0.0025]
         real(c_double), intent(in), optional :: gravity_x !! m/s2 [0]
@@ -214,6 +214,9 @@ contains
         integer(c_int32_t), intent(in), optional :: retry_halvings
             !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
             !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
+        integer(c_int32_t), intent(in), optional :: sleep
+            !! 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in every step. Only
+            !! with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message
         type(gp_config) :: made
@@ -253,6 +256,7 @@ contains
         if (present(implicit_iterations)) made%implicit_iterations = implicit_iterations
         if (present(allow_unstable_step)) made%allow_unstable_step = allow_unstable_step
         if (present(retry_halvings)) made%retry_halvings = retry_halvings
+        if (present(sleep)) made%sleep = sleep
     end function
 
     !> The library's defaults, but for what is given, by keyword: the order may change.

@@ -1,9 +1,10 @@
-"""Writes the low-level layers of the bindings from the public C header.
+"""Writes what repeats the public C header: the low-level layers of the bindings, and the library's list of its functions.
 
 usage: python3 bindings/generate [--check] [--cc CC] [--header GP_H]
 
-Writes bindings/python/granperi/_cdef.h (for CFFI), bindings/fortran/granperi_raw.f90 (the C interface in Fortran) and
-bindings/fortran/granperi_types.f90 (constructors and views over it). --check writes nothing and exits with 1, and a
+Writes bindings/python/granperi/_cdef.h (for CFFI), bindings/fortran/granperi_raw.f90 (the C interface in Fortran),
+bindings/fortran/granperi_types.f90 (constructors and views over it) and src/levels/calls.inc (for libraries that have the
+engine more than once). --check writes nothing and exits with 1, and a
 message, where a file is not what would be written.
 """
 
@@ -13,6 +14,7 @@ import os
 import shlex
 import sys
 
+from calls import write_calls
 from cdef import write_cdef
 from fortran_raw import write_raw
 from fortran_types import write_types
@@ -21,6 +23,7 @@ from header import HeaderError, read_header
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 TARGETS = {
     "bindings/python/granperi/_cdef.h": write_cdef,
+    "src/levels/calls.inc": write_calls,
     "bindings/fortran/granperi_raw.f90": write_raw,
     "bindings/fortran/granperi_types.f90": write_types,
 }

@@ -6,6 +6,7 @@
 #include "check.hpp"
 #ifdef GP_WITH_HDF5
 #include "io/checkpoint_parts.hpp"
+#include "io/checkpoint_sleep.hpp"
 #include "io/safe_file.hpp"
 #include "stages/stages.hpp"
 #endif
@@ -117,6 +118,8 @@ void write_world(CheckpointWriter &file, const World &world) {
     }
     exchange_lists(file, lists, world);
     exchange_particles(file, world.particles, world.listed);
+    if (world.sleep.in_use)
+        write_sleep(file, world);
 
     PlateMotionTable t;
     for (const Plate &plate : world.walls.plates) {
@@ -478,6 +481,8 @@ std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, 
     read_clock_and_sums(file, check, *world);
     const ListTable lists = read_lists(file, check, *world);
     read_particles(file, check, scene, *world);
+    if (world->sleep.in_use)
+        read_sleep(file, *world);
     read_motions(file, check, *world);
     exchange_ghosts(file, world->walls);
     for (const auto *field :

@@ -1,7 +1,7 @@
 // The container of a checkpoint: named numbers and arrays in an HDF5 file behind a block of text.
 //
 //   byte 0     granperi checkpoint
-//              format 2
+//              format 3
 //              library 0.1.0
 //              bytes <of the whole file, 20 digits>
 //              checksum <of all other bytes, 16 hexadecimal digits>
@@ -21,7 +21,7 @@
 
 namespace gp::io {
 
-constexpr uint32_t checkpoint_format = 2;
+constexpr uint32_t checkpoint_format = 3;
 
 // Writes the text in front of a whole file, whose first 512 bytes are free for it.
 void seal(std::vector<unsigned char> &file, uint32_t format = checkpoint_format);

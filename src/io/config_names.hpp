@@ -10,8 +10,8 @@ template <class File, class Config> void exchange_config(File &file, Config &con
     auto &[struct_size, spacing, gravity_x, gravity_y, sound_speed, cfl, time_step, interaction_radius, horizon,
            horizon_length, nonlocal, stress, density, friction_factor, delta, collision_distance, zero_energy_penalty,
            density_diffusion, channel_width, channel_friction, periodic_x_min, periodic_x_max, threads, seed, jitter,
-           preset, bulk_viscosity, implicit_tolerance, implicit_iterations, allow_unstable_step, retry_halvings] =
-        config;
+           preset, bulk_viscosity, implicit_tolerance, implicit_iterations, allow_unstable_step, retry_halvings,
+           sleep] = config;
     (void)struct_size;
     file.value("spacing", spacing);
     file.value("gravity_x", gravity_x);
@@ -43,6 +43,7 @@ template <class File, class Config> void exchange_config(File &file, Config &con
     file.value("implicit_iterations", implicit_iterations);
     file.value("allow_unstable_step", allow_unstable_step);
     file.value("retry_halvings", retry_halvings);
+    file.value("sleep", sleep);
 }
 
 } // namespace gp::io

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parallel.hpp"
+#include "awake.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -54,7 +54,7 @@ void measure_velocities(World &world) {
     const Particles &p = world.particles;
     const double threshold = rest_acceleration * world.constants.gravity.norm(), threshold2 = threshold * threshold;
     const double inverse_dt = world.clock.dt > 0 ? 1.0 / world.clock.dt : 0.0;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         BlockRange range{INFINITY, -INFINITY, INFINITY, -INFINITY};
         double kinetic = 0, unbalanced = 0;
         for (int64_t i = begin; i < end; ++i) {
@@ -113,7 +113,9 @@ template <bool Adjoint> void close_books(World &world) {
     // material's angular momentum. Without the couple a layer at rest on an incline had a torque off by .4 dl times its shear
     // force, and an inner wall of 16 dl radius turned with 4 % more than the material bears.
     double contact_power = 0, plate_power = 0;
-    for (const Contact &contact : world.walls.contacts) {
+    if (world.sleep.some)
+        add_held_loads(world);
+    for_each_awake_contact(world, [&](const Contact &contact) {
         const int64_t i = contact.particle;
         const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
         world.walls.add_load(contact.facet, {p.x[i], p.y[i]}, reaction);
@@ -122,7 +124,7 @@ template <bool Adjoint> void close_books(World &world) {
         contact_power += p.volume * (contact.ghost_power + contact.power);
         plate_power -= reaction.dot(world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]})) -
                        p.volume * contact.couple * plate.motion().omega;
-    }
+    });
     for (Plate &plate : world.walls.plates) {
         plate.impulse += dt * plate.force;
         plate.impulse_torque += dt * plate.torque_pivot;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "lanes.hpp"
-#include "parallel.hpp"
 #include "stages/push.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -15,22 +15,27 @@ namespace gp::stages {
 
 namespace {
 
+constexpr double immovable = 1e100; // kg/m3
+
 struct View {
     Clusters clusters;
     const double *x, *y, *vx, *vy;
     double distance2;
     const Constants *constants;
     const int32_t *column;
+    const uint8_t *asleep; // NULL where nothing sleeps
     uint8_t *colliding;
     double *du, *dv; // velocity changes
 
     GP_INLINE double density(int64_t i) const {
         return constants->materials[constants->body_material[column[i]]].density;
     }
+    // What sleeps does not give way: it is as heavy as a wall.
+    GP_INLINE double partner_density(int64_t j) const { return asleep && asleep[j] ? immovable : density(j); }
 };
 
 // How many partners each particle has. Returns the sum.
-GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end) {
+int64_t count_partners(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     const Lanes one = Lanes{} + 1.0;
     int64_t sum = 0;
@@ -40,8 +45,9 @@ GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end
         const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes partners{};
-        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
-            const int32_t j = v.clusters.index[k];
+        int32_t j = v.clusters.first[c];
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+            j += v.clusters.step[k];
             const Lanes dx = x[j] - xi, dy = y[j] - yi;
             const Lanes r2 = dx * dx + dy * dy;
             // Where they are in the same place they do not approach: one's self among them.
@@ -59,7 +65,7 @@ GP_MULTIVERSION int64_t count_partners(const View &v, int64_t begin, int64_t end
 }
 
 // The velocity changes of the particles that have partners.
-GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
+void find_pushes(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     for (int64_t c = begin; c < end; ++c) {
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
@@ -77,14 +83,15 @@ GP_MULTIVERSION void find_pushes(const View &v, int64_t begin, int64_t end) {
         }
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes du{}, dv{};
-        for (int64_t k = v.clusters.start[c]; k < v.clusters.close_stop[c]; ++k) {
-            const int32_t j = v.clusters.index[k];
+        int32_t j = v.clusters.first[c];
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+            j += v.clusters.step[k];
             if (v.colliding[j] == 0)
                 continue;
             const Lanes dx = x[j] - xi, dy = y[j] - yi;
             const Lanes r2 = dx * dx + dy * dy;
             const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
-            const double other = v.density(j), others = v.colliding[j];
+            const double other = v.partner_density(j), others = v.colliding[j];
             const Lanes most = choose(partners > others, partners, Lanes{} + others);
             // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
             Lanes impulse =
@@ -107,11 +114,19 @@ void collide(World &world) {
     const double dt = world.clock.dt;
     update_images(world);
     // sigma K^-1 has done its work: its first row holds the velocity changes.
-    const View view{Clusters(world),  p.x.data(),      p.y.data(),
-                    p.vx.data(),      p.vy.data(),     distance * distance,
-                    &world.constants, p.column.data(), world.colliding.data(),
-                    p.cxx.data(),     p.cxy.data()};
-    for_each_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+    const View view{Clusters(world),
+                    p.x.data(),
+                    p.y.data(),
+                    p.vx.data(),
+                    p.vy.data(),
+                    distance * distance,
+                    &world.constants,
+                    p.column.data(),
+                    world.sleep.some ? p.asleep.data() : nullptr,
+                    world.colliding.data(),
+                    p.cxx.data(),
+                    p.cxy.data()};
+    for_each_seen_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;
     });
@@ -123,8 +138,8 @@ void collide(World &world) {
 
     world.images.copy(world.colliding);
 
-    for_each_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { find_pushes(view, begin, end); });
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { find_pushes(view, begin, end); });
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double loss = 0;
         for (int64_t i = begin; i < end; ++i) {
             if (world.colliding[i] == 0)

@@ -1,5 +1,5 @@
+#include "awake.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -26,7 +26,7 @@ void density(World &world) {
     const double c2 = world.constants.sound_speed * world.constants.sound_speed;
     const double acoustic_steps = world.constants.sound_speed * dt / world.constants.spacing;
     const bool flights = !p.carried.empty();
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double densest = 0, released = 0; // J/m3
         bool unbounded = false;
         for (int64_t i = begin; i < end; ++i) {
@@ -39,8 +39,7 @@ void density(World &world) {
             const bool in_flight = flights && p.carried[i] < 1;
             if (in_flight && p.density[i] > own)
                 p.density[i] = own + left_in_flight(p.carried[i], acoustic_steps) * (p.density[i] - own);
-            const double pressure = c2 * (p.density[i] - own);
-            p.pressure[i] = pressure > 0 ? pressure : 0.0;
+            p.pressure[i] = pressure_of(p.density[i], own, c2);
             if (in_flight) { // what the stress of this step takes, less what is stored
                 const double modulus = world.material_of(i).bulk_modulus;
                 const double change =
@@ -55,6 +54,8 @@ void density(World &world) {
         world.sums[block].densest = densest;
         world.sums[block].unbounded = unbounded;
     });
+    if (flights)
+        hand_over(p.carried, p.cyy);
 }
 
 } // namespace gp::stages

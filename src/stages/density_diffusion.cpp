@@ -9,10 +9,8 @@
 // amount of rho in both made energy: half of all there was, between densities of 1 and 40). Of the stretched there is no
 // pressure to be continuous: there it is rho / rho0, in the lighter one's measure (by the excess, a heavy particle of half
 // its density took the light ones beside it below zero).
-#include <algorithm>
-
+#include "awake.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/density_exchange.hpp"
 #include "stages/stages.hpp"
 
@@ -22,53 +20,65 @@ ExchangeView prepare_exchange(World &world) {
     Particles &p = world.particles;
     const Constants &c = world.constants;
     const double c2 = c.sound_speed * c.sound_speed;
-    const double first = c.materials[c.body_material[0]].density;
-    const bool one = std::all_of(c.body_material.begin(), c.body_material.end(),
-                                 [&](int32_t material) { return c.materials[material].density == first; });
-    // sigma K^-1 is made later in the step: until then it holds what is needed here.
-    Field<double> &excess = p.cxy, &bears = p.bearing, &rest = p.cyx, &inverse_rest = p.cyy;
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    const bool one = c.one_density();
+    // sigma K^-1 is made later in the step: until then its first row holds what is needed here, the excess and what changes.
+    Field<double> &excess = p.cxy, &bears = one ? p.bearing_flow : p.bearing;
+    if (bears.empty()) // it has no memory of its own
+        hand_over(p.ay, bears);
+    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);
-            excess[i] = p.density[i] - m.density;
-            bears[i] = excess[i] > 0 ? 1.0 : 0.0;
-            if (!one) {
-                rest[i] = m.density;
-                inverse_rest[i] = 1.0 / m.density;
+            const double over = p.density[i] - m.density, bearing = over > 0 ? 1.0 : 0.0;
+            if (one) {
+                excess[i] = p.flowing[i] * over;
+                bears[i] = p.flowing[i] * bearing;
+            } else {
+                excess[i] = over;
+                bears[i] = bearing;
+                p.rest[i] = m.density;
+                p.inverse_rest[i] = 1.0 / m.density;
             }
         }
     });
-    world.images.copy({&excess, &bears, &p.flowing, &p.density});
+    world.images.copy({&excess, &bears, &p.density});
     if (!one)
-        world.images.copy({&rest, &inverse_rest});
-    return {p.density.data(),
-            excess.data(),
-            p.flowing.data(),
-            bears.data(),
-            rest.data(),
-            inverse_rest.data(),
-            world.scene->config().density_diffusion * c.sound_speed * c.spacing * world.clock.dt * 2.0 /
-                c.lattice.second_moment,
-            c.gravity.x() / c2,
-            c.gravity.y() / c2,
-            1.5 * c.lattice.number_density, // with the stable step less than all of the difference to the mean
-            one,
-            p.cxx.data()};
+        world.images.copy({&p.rest, &p.inverse_rest});
+    ExchangeView view{};
+    view.density = p.density.data();
+    view.flowing = p.flowing.data();
+    view.excess = view.excess_there = excess.data();
+    view.bears = view.bears_there = bears.data();
+    view.rest = p.rest.data();
+    view.inverse_rest = p.inverse_rest.data();
+    view.rest_of_all = c.materials[c.body_material[0]].density;
+    view.rate = world.scene->config().density_diffusion * c.sound_speed * c.spacing * world.clock.dt * 2.0 /
+                c.lattice.second_moment;
+    view.hydrostatic_x = c.gravity.x() / c2;
+    view.hydrostatic_y = c.gravity.y() / c2;
+    view.largest_pace =
+        1.5 * c.lattice.number_density; // with the stable step less than all of the difference to the mean
+    view.one_density = one;
+    view.change = p.cxx.data();
+    return view;
 }
 
 void density_diffusion(World &world) {
     Particles &p = world.particles;
     const double c2 = world.constants.sound_speed * world.constants.sound_speed;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
-        double lost = 0;
-        for (int64_t i = begin; i < end; ++i) {
-            if (p.cxx[i] == 0)
-                continue;
-            const double rest = world.material_of(i).density, after = p.density[i] + p.cxx[i];
-            lost += compression_energy(p.density[i] / rest, rest) - compression_energy(after / rest, rest); // over c0^2
-            p.density[i] = after;
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+        Lanes lost{};
+        for (int64_t first = begin; first < end; first += lane_count) {
+            const LanePlaces places(first, end);
+            Lanes rest;
+            for (int l = 0; l < lane_count; ++l)
+                rest[l] = world.material_of(places.at[l]).density;
+            const Lanes before = places.load(p.density.data()), after = before + places.load(p.cxx.data());
+            const Lanes inverse = 1.0 / rest;
+            lost += places.own() * (compression_energy(before * inverse, rest) -
+                                    compression_energy(after * inverse, rest)); // over c0^2
+            places.store(p.density.data(), std::min(end, first + lane_count), after);
         }
-        world.sums[block].diffused = p.volume * c2 * lost;
+        world.sums[block].diffused = p.volume * c2 * sum_of(lost);
     });
 }
 

@@ -21,8 +21,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
+#include "lanes.hpp"
 #include "material/compression.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -39,25 +40,32 @@ void density_of_spacing(World &world) {
     Particles &p = world.particles;
     const double inverse = 1.0 / world.constants.lattice.number_density;
     const double strains = world.clock.dt / spacing_strain;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
-        double lost = 0;
-        for (int64_t i = begin; i < end; ++i) {
-            const MaterialConstants &m = world.material_of(i);
-            const double rest = m.density, before = p.density[i];
-            double target = rest * std::min(p.crowding[i] * inverse, spacing_ceiling);
-            if (target <= before)
-                continue;
-            if (before < rest)
-                target = std::min(target, rest);
-            const double dxx = 0.5 * (p.lxx[i] - p.lyy[i]), dxy = 0.5 * (p.lxy[i] + p.lyx[i]);
-            const double pace = strains * 2 * std::sqrt(dxx * dxx + dxy * dxy);
-            const double after = before + pace / (1 + pace) * (target - before);
-            lost +=
-                compression_energy(before / rest, m.bulk_modulus) - compression_energy(after / rest, m.bulk_modulus);
-            p.density[i] = after;
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+        Lanes lost{};
+        for (int64_t first = begin; first < end; first += lane_count) {
+            const LanePlaces places(first, end);
+            Lanes rest, modulus;
+            for (int l = 0; l < lane_count; ++l) {
+                const MaterialConstants &m = world.material_of(places.at[l]);
+                rest[l] = m.density;
+                modulus[l] = m.bulk_modulus;
+            }
+            const Lanes before = places.load(p.density.data()), spaced = places.load(p.crowding.data()) * inverse;
+            Lanes target = rest * choose(spaced < spacing_ceiling, spaced, Lanes{} + spacing_ceiling);
+            const auto closer = target > before;
+            target = choose((before < rest) & (target > rest), rest, target);
+            const Lanes lxx = places.load(p.lxx.data()), lyy = places.load(p.lyy.data());
+            const Lanes dxx = 0.5 * (lxx - lyy), dxy = 0.5 * (places.load(p.lxy.data()) + places.load(p.lyx.data()));
+            const Lanes pace = 2.0 * strains * root(dxx * dxx + dxy * dxy);
+            const Lanes after = before + where(closer, pace / (1.0 + pace) * (target - before));
+            const Lanes scale = 1.0 / rest;
+            lost += places.own() *
+                    (compression_energy(before * scale, modulus) - compression_energy(after * scale, modulus));
+            places.store(p.density.data(), std::min(end, first + lane_count), after);
         }
-        world.sums[block].spaced = p.volume * lost;
+        world.sums[block].spaced = p.volume * sum_of(lost);
     });
+    hand_over(p.crowding, p.cyx);
 }
 
 } // namespace gp::stages

@@ -6,7 +6,7 @@
 // pair's is the product of both), so that at rest nothing is tied.
 #include <cmath>
 
-#include "parallel.hpp"
+#include "awake.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -25,7 +25,7 @@ double weight_of_flow(const World &world, int64_t i, double stress) {
 
 template <bool Fluid> void find_flowing(World &world) {
     Particles &p = world.particles;
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const double stress = equivalent_stress({p.sxx[i], p.sxy[i]});
             if (Fluid && world.is_fluid(i))
@@ -39,10 +39,12 @@ template <bool Fluid> void find_flowing(World &world) {
 } // namespace
 
 void flowing(World &world) {
+    hand_over(world.particles.ax, world.particles.flowing);
     if (world.constants.fluid)
         find_flowing<true>(world);
     else
         find_flowing<false>(world);
+    world.images.copy(world.particles.flowing);
 }
 
 } // namespace gp::stages

@@ -3,7 +3,7 @@
 // gradient. The stage `stress` solves for g with both: no limit on the time step. Missing neighbours pass no flux: at free
 // surfaces and plates the gradient along the normal is 0. What bears no pressure passes none either. Ghosts of plates with
 // GP_FLUIDITY_ZERO have -g_i times their depth over the particle's distance.
-#include "parallel.hpp"
+#include "awake.hpp"
 #include "stages/fluidity_exchange.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -31,7 +31,9 @@ GP_INLINE double pace_of_ghosts(const Walls &w, const Contact &contact, const Ve
 
 FluidityView prepare_fluidity(World &world) {
     Particles &p = world.particles;
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    if (p.bearing.empty()) // no density diffusion between several densities
+        hand_over(p.ay, p.bearing);
+    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             p.bearing[i] = p.pressure[i] > 0 ? 1.0 : 0.0;
             p.fluid_seen[i] = p.bearing[i] * p.fluidity[i];
@@ -46,7 +48,7 @@ void fluidity(World &world) {
     const Walls &walls = world.walls;
     const Rows rows(world);
     const double share = 2 / world.constants.lattice.second_moment, inverse_radius = 1 / world.constants.horizon;
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             double pace = p.fluid_pace[i];
             for (const Contact &contact : rows.contacts_of(i)) {

@@ -15,10 +15,10 @@ template <class Densities> struct AndFluidity : Densities {
 
     GP_INLINE AndFluidity(const ExchangeView &v, const LanePlaces &places)
         : Densities(v, places), seen(v.fluidity.seen), bears_pressure(v.fluidity.bears) {}
-    GP_INLINE void add(int32_t j, const Lanes &weight, const Lanes &dx, const Lanes &dy) {
-        Densities::add(j, weight, dx, dy);
-        fluid_pull += weight * seen[j];
-        fluid_pace += weight * bears_pressure[j];
+    GP_INLINE void add(int32_t j, const LanePair &pair) {
+        Densities::add(j, pair);
+        fluid_pull += pair.weight * seen[j];
+        fluid_pace += pair.weight * bears_pressure[j];
     }
     GP_INLINE void finish(const ExchangeView &v, int64_t i, int lane) const {
         Densities::finish(v, i, lane);

@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"
-#include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -40,8 +40,9 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
     }
     const double inverse_radius = v.inverse_radius;
     Lanes wx{}, wy{}, tx{}, ty{}, pu{}, pv{};
-    for (int64_t k = v.clusters.start[cluster]; k < v.clusters.stop[cluster]; ++k) {
-        const int32_t j = v.clusters.index[k];
+    int32_t j = v.clusters.first[cluster];
+    for (int64_t k = v.clusters.start[cluster], stop = v.clusters.stop(cluster); k < stop; ++k) {
+        j += v.clusters.step[k];
         const Lanes dx = x[j] - xi, dy = y[j] - yi;
         Lanes w = weight(dx * dx + dy * dy, inverse_radius);
         if (Partly)
@@ -81,87 +82,104 @@ template <bool Penalty> GP_INLINE void force_clusters(const View &v, int64_t beg
     }
 }
 
-GP_MULTIVERSION void plain_clusters(const View &v, int64_t begin, int64_t end) {
+void plain_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<false>(v, begin, end);
 }
 
-GP_MULTIVERSION void penalty_clusters(const View &v, int64_t begin, int64_t end) {
+void penalty_clusters(const View &v, int64_t begin, int64_t end) {
     force_clusters<true>(v, begin, end);
 }
 
-struct WallView {
-    const double *x, *y, *vx, *vy, *gx, *gy, *gvx, *gvy, *axx, *axy, *ayy;
-    const int32_t *index;
-    double inverse_radius;
+// Sums over the ghosts that the particles of a group of contacts see.
+struct LaneContacts {
+    Lanes wx{}, wy{}, tx{}, ty{}, gxx{}, gxy{}, gyx{}, gyy{}; // w r, w A_g r, w (u_g - u_i) (x) r
+    Lanes sxx{}, sxy{}, syy{};                                // w r (x) r
 };
 
-// Force density of one plate's ghosts on a particle with A = sigma K^-1 as far as it acts through the plate's surface (a), and
-// the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts (seen).
-// Returns sum w r (x) r.
-GP_INLINE SymmetricTensor contact_force(const WallView &v, const Tensor &a, const Tensor &seen, Contact &contact) {
-    const int64_t i = contact.particle;
-    const double xi = v.x[i], yi = v.y[i];
-    double wx = 0, wy = 0, tx = 0, ty = 0, gxx = 0, gxy = 0, gyx = 0, gyy = 0;
-    double sxx = 0, sxy = 0, syy = 0;
-    const double ui = v.vx[i], vi = v.vy[i];
-#pragma omp simd reduction(+ : wx, wy, tx, ty, gxx, gxy, gyx, gyy, sxx, sxy, syy)
-    for (int64_t k = contact.begin; k < contact.end; ++k) {
-        const int32_t g = v.index[k];
-        const double dx = v.gx[g] - xi, dy = v.gy[g] - yi;
-        const double w = weight(std::sqrt(dx * dx + dy * dy), v.inverse_radius);
-        const double wdx = w * dx, wdy = w * dy;
-        wx += wdx;
-        wy += wdy;
-        tx += v.axx[g] * wdx + v.axy[g] * wdy;
-        ty += v.axy[g] * wdx + v.ayy[g] * wdy;
-        const double du = v.gvx[g] - ui, dv = v.gvy[g] - vi;
-        gxx += du * wdx;
-        gxy += du * wdy;
-        gyx += dv * wdx;
-        gyy += dv * wdy;
-        sxx += dx * wdx;
-        sxy += dx * wdy;
-        syy += dy * wdy;
+GP_INLINE LaneContacts sums_of_group(const World &world, int64_t group, const LanePlaces &places) {
+    const Particles &p = world.particles;
+    const Walls &walls = world.walls;
+    const double *__restrict x = walls.ghost_x.data(), *__restrict y = walls.ghost_y.data();
+    const double *__restrict vx = walls.ghost_vx.data(), *__restrict vy = walls.ghost_vy.data();
+    const double *__restrict axx = walls.ghost_axx.data(), *__restrict axy = walls.ghost_axy.data();
+    const double *__restrict ayy = walls.ghost_ayy.data();
+    const Lanes xi = places.load(p.x.data()), yi = places.load(p.y.data());
+    const Lanes ui = places.load(p.vx.data()), vi = places.load(p.vy.data());
+    const double inverse_radius = 1.0 / world.constants.horizon;
+    const LaneRows &rows = walls.lanes.ghosts_of_contacts;
+    LaneContacts s;
+    for (int64_t k = rows.start[group], end = rows.start[group + 1]; k < end; ++k) {
+        const int32_t g = rows.index[k];
+        const Lanes dx = x[g] - xi, dy = y[g] - yi;
+        const Lanes w = seen_by_lanes(weight(dx * dx + dy * dy, inverse_radius), rows.seen_by[k]);
+        const Lanes wdx = w * dx, wdy = w * dy;
+        s.wx += wdx;
+        s.wy += wdy;
+        s.tx += axx[g] * wdx + axy[g] * wdy;
+        s.ty += axy[g] * wdx + ayy[g] * wdy;
+        const Lanes du = vx[g] - ui, dv = vy[g] - vi;
+        s.gxx += du * wdx;
+        s.gxy += du * wdy;
+        s.gyx += dv * wdx;
+        s.gyy += dv * wdy;
+        s.sxx += wdx * dx;
+        s.sxy += wdx * dy;
+        s.syy += wdy * dy;
     }
-    contact.force_x = a(0, 0) * wx + a(0, 1) * wy + tx;
-    contact.force_y = a(1, 0) * wx + a(1, 1) * wy + ty;
-    contact.ghost_power = seen(0, 0) * gxx + seen(0, 1) * gxy + seen(1, 0) * gyx + seen(1, 1) * gyy;
-    return {sxx, sxy, syy};
+    return s;
 }
 
-GP_MULTIVERSION void contact_rows(const WallView &v, World &world, int64_t begin, int64_t end) {
+// The force density of one plate's ghosts on a particle, with A = sigma K^-1 as far as it acts through the plate's surface, and
+// the ghosts' share of sigma : L, that is sum w (u_g - u_i) . A r with A as far as the gradient sees the ghosts.
+GP_INLINE void finish_contact(World &world, Contact &contact, const LaneContacts &sums, int lane) {
     const Particles &p = world.particles;
     const double half = 0.5 * world.constants.penalty;
-    for (int64_t k = begin; k < end; ++k) {
-        Contact &contact = world.walls.contacts[k];
-        const int64_t i = contact.particle;
-        Tensor a;
-        a << p.cxx[i], p.cxy[i], p.cyx[i], p.cyy[i];
-        const double own_half = half > 0 ? half * p.stressed[i] : 0.0;
-        a += own_half * inner_gradient(world, i); // C without the penalty's part
-        // No shear traction through the surface: it is the stage wall_friction's, or the implicit solve's. Where the plate is
-        // not rough, the gradient leaves out the same component.
-        const Facet &facet = world.walls.facets[contact.facet];
-        const Segment &s = facet.segment;
-        const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
-        const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
-        const bool sticks = rough && by_number_density(world.constants.scheme);
-        const SymmetricTensor ways = contact_force(v, sticks ? a : through, rough ? a : through, contact);
-        // Their couple, which a turn works against: a particle's bonds bear none together, so those to particles leave the
-        // opposite one in the material.
-        contact.couple = a(1, 0) * ways.xx + (a(1, 1) - a(0, 0)) * ways.xy - a(0, 1) * ways.yy;
-        if (!rough) {
-            const double omega = world.walls.plates[facet.plate].motion().omega;
-            contact.ghost_power += s.tangent.dot(a * s.normal) * shear_of_turn(facet, omega, ways.xx, ways.xy, ways.yy);
+    const int64_t i = contact.particle;
+    Tensor a;
+    a << p.cxx[i], p.cxy[i], p.cyx[i], p.cyy[i];
+    const double own_half = half > 0 ? half * p.stressed[i] : 0.0;
+    a += own_half * inner_gradient(world, i); // C without the penalty's part
+    // No shear traction through the surface: it is the stage wall_friction's, or the implicit solve's. Where the plate is
+    // not rough, the gradient leaves out the same component.
+    const Facet &facet = world.walls.facets[contact.facet];
+    const Segment &s = facet.segment;
+    const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
+    const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
+    const bool sticks = rough && by_number_density(world.constants.scheme);
+    const Tensor &acts = sticks ? a : through, &seen = rough ? a : through;
+    contact.force_x = acts(0, 0) * sums.wx[lane] + acts(0, 1) * sums.wy[lane] + sums.tx[lane];
+    contact.force_y = acts(1, 0) * sums.wx[lane] + acts(1, 1) * sums.wy[lane] + sums.ty[lane];
+    contact.ghost_power = seen(0, 0) * sums.gxx[lane] + seen(0, 1) * sums.gxy[lane] + seen(1, 0) * sums.gyx[lane] +
+                          seen(1, 1) * sums.gyy[lane];
+    // Their couple, which a turn works against: a particle's bonds bear none together, so those to particles leave the
+    // opposite one in the material.
+    const double xx = sums.sxx[lane], xy = sums.sxy[lane], yy = sums.syy[lane];
+    contact.couple = a(1, 0) * xx + (a(1, 1) - a(0, 0)) * xy - a(0, 1) * yy;
+    if (!rough) {
+        const double omega = world.walls.plates[facet.plate].motion().omega;
+        contact.ghost_power += s.tangent.dot(a * s.normal) * shear_of_turn(facet, omega, xx, xy, yy);
+    }
+    // A wall only pushes.
+    const Vector &n = s.normal;
+    const double pull = contact.force_x * n.x() + contact.force_y * n.y();
+    if (pull < 0) {
+        contact.force_x -= pull * n.x();
+        contact.force_y -= pull * n.y();
+    }
+    contact.power = contact.force_x * p.vx[i] + contact.force_y * p.vy[i];
+}
+
+// The contacts of the clusters begin .. end.
+GP_INLINE void contacts_of_clusters(World &world, int64_t begin, int64_t end) {
+    const WallLanes &lanes = world.walls.lanes;
+    for (int64_t c = begin; c < end; ++c) {
+        const LanePlaces places(world.clusters.first[c], world.clusters.first[c + 1]);
+        for (int64_t g = lanes.of_cluster[c]; g < lanes.of_cluster[c + 1]; ++g) {
+            const LaneContacts sums = sums_of_group(world, g, places);
+            for (int l = 0; l < lane_count; ++l)
+                if (const int32_t k = lanes.contacts[g].contact[l]; k >= 0)
+                    finish_contact(world, world.walls.contacts[k], sums, l);
         }
-        // A wall only pushes.
-        const Vector &n = s.normal;
-        const double pull = contact.force_x * n.x() + contact.force_y * n.y();
-        if (pull < 0) {
-            contact.force_x -= pull * n.x();
-            contact.force_y -= pull * n.y();
-        }
-        contact.power = contact.force_x * p.vx[i] + contact.force_y * p.vy[i];
     }
 }
 
@@ -176,27 +194,12 @@ void force(World &world) {
                     p.stressed.data(), p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(),
                     1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data()};
     const bool in_reach = walls.in_reach();
-    if (in_reach) {
-        const WallView wall{p.x.data(),
-                            p.y.data(),
-                            p.vx.data(),
-                            p.vy.data(),
-                            walls.ghost_x.data(),
-                            walls.ghost_y.data(),
-                            walls.ghost_vx.data(),
-                            walls.ghost_vy.data(),
-                            walls.ghost_axx.data(),
-                            walls.ghost_axy.data(),
-                            walls.ghost_ayy.data(),
-                            walls.ghost_of_contact.data(),
-                            1.0 / c.horizon};
-        for_each_block<ghost_block_size>(
-            world.threads, static_cast<int64_t>(walls.contacts.size()),
-            [&](int64_t, int64_t begin, int64_t end) { contact_rows(wall, world, begin, end); });
-    }
     const auto clusters = c.penalty > 0 ? penalty_clusters : plain_clusters;
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
-        clusters(view, world.clusters.cluster_of_block[block], world.clusters.cluster_of_block[block + 1]);
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
+        const int32_t *of_block = world.clusters.cluster_of_block.data();
+        clusters(view, of_block[block], of_block[block + 1]);
+        if (in_reach)
+            contacts_of_clusters(world, of_block[block], of_block[block + 1]);
         double power = 0, acceleration2 = 0;
         for (int64_t i = begin; i < end; ++i) {
             double fx = p.ax[i], fy = p.ay[i];

@@ -1,9 +1,10 @@
 #include <atomic>
 #include <cmath>
 
+#include "awake.hpp"
 #include "error.hpp"
-#include "parallel.hpp"
 #include "stages/stages.hpp"
+#include "undo.hpp"
 
 namespace gp::stages {
 
@@ -25,7 +26,7 @@ void require_bounded_step(const World &world, const Field<double> &ax, const Fie
     const Particles &p = world.particles;
     std::atomic<bool> suspect{false};
     // By all threads: one alone would wait for each line that the others have just written.
-    for_each_block(world.threads, p.count, [&](int64_t k, int64_t, int64_t) {
+    for_each_awake_block(world, [&](int64_t k, int64_t, int64_t) {
         const BlockSums &block = world.sums[k];
         if (block.unbounded || !(block.acceleration2 <= most * most))
             suspect.store(true, std::memory_order_relaxed);
@@ -53,8 +54,10 @@ void require_bounded_step(const World &world, const Field<double> &ax, const Fie
 void integrate(World &world) {
     Particles &p = world.particles;
     require_bounded_step(world, p.ax, p.ay);
+    if (world.constants.scheme == Scheme::adjoint)
+        accept_step(world);
     const double dt = world.clock.dt;
-    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             p.vx[i] += dt * p.ax[i];
             p.vy[i] += dt * p.ay[i];

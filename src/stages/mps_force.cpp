@@ -69,7 +69,7 @@ struct View {
 
 // The load on a plate is by the sum of the stresses in place of their difference: the traction that the pairs through its
 // surface pass on.
-GP_MULTIVERSION void viscous_rows(const View &v, int64_t begin, int64_t end) {
+void viscous_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = v.particles.x[i], yi = v.particles.y[i];
         const double xx = v.particles.axx[i], xy = v.particles.axy[i], yy = v.particles.ayy[i];
@@ -89,7 +89,7 @@ GP_MULTIVERSION void viscous_rows(const View &v, int64_t begin, int64_t end) {
     }
 }
 
-GP_MULTIVERSION void pressure_rows(const View &v, int64_t begin, int64_t end) {
+void pressure_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = v.particles.x[i], yi = v.particles.y[i], own = v.particles.axx[i];
         Sums sum = sums_over<false>(v.index + v.start[i], v.start[i + 1] - v.start[i], xi, yi, v.particles,

@@ -16,7 +16,7 @@ struct View {
     double *lxx, *lxy, *lyx, *lyy;
 };
 
-GP_MULTIVERSION void mps_gradient_rows(const View &v, int64_t begin, int64_t end) {
+void mps_gradient_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         MpsGradient m = mps_gradient_sum(v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.vx[i], v.vy[i], v.x, v.y,
                                          v.vx, v.vy, v.inverse_radius, v.floor);

@@ -14,7 +14,7 @@ struct View {
     double *sum;
 };
 
-GP_MULTIVERSION void number_density_rows(const View &v, int64_t begin, int64_t end) {
+void number_density_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         double sum = number_density_sum(v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.x, v.y, v.inverse_radius);
         for (const Contact &contact : v.rows.contacts_of(i)) {

@@ -24,7 +24,10 @@ inline void push_by_plate(World &world, const Contact &contact, const Vector &ch
     Particles &p = world.particles;
     const int64_t i = contact.particle;
     const double mass = world.material_of(i).density * p.volume;
-    world.walls.add_load(contact.facet, {p.x[i], p.y[i]}, -mass / world.clock.dt * change);
+    const Vector load = -mass / world.clock.dt * change;
+    world.walls.add_load(contact.facet, {p.x[i], p.y[i]}, load);
+    if (world.sleep.in_use)
+        world.sleep.pushed[&contact - world.walls.contacts.data()] += load;
     const double plate_power_on_material = mass * change.dot(world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]}));
     world.ledger.plate_work -= plate_power_on_material;
     world.ledger.dissipated +=

@@ -1,6 +1,7 @@
 // One particle's neighbours as the pair loops see them: its row of the lists, then its rows of ghosts, plate by plate.
 #pragma once
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"
 #include "world.hpp"
@@ -38,34 +39,39 @@ struct Rows {
     GP_INLINE static int64_t ghost_count(const Contact &contact) { return contact.end - contact.begin; }
 };
 
-// The clusters and their rows, as the pair loops see them.
+// The clusters and their rows, as the pair loops see them: from first[c] on, step by step.
 struct Clusters {
     const int32_t *first;
-    const int64_t *start, *close_stop, *stop;
-    const int32_t *index;
+    const int64_t *start;
+    const int32_t *close;
+    const int16_t *step;
     const uint8_t *partly_seen; // NULL where no plate has material behind it
     const uint8_t *seen_by;
 
     explicit Clusters(const World &world)
-        : first(world.clusters.first.data()), start(world.clusters.start.data()),
-          close_stop(world.clusters.close_stop.data()), stop(world.clusters.stop.data()),
-          index(world.clusters.index.data()),
+        : first(world.clusters.first.data()), start(world.clusters.start.data()), close(world.clusters.close.data()),
+          step(world.clusters.step.data()),
           partly_seen(world.clusters.partly_seen.empty() ? nullptr : world.clusters.partly_seen.data()),
           seen_by(world.clusters.seen_by.data()) {}
 
+    GP_INLINE int64_t stop(int64_t cluster) const { return start[cluster + 1]; }
+    GP_INLINE int64_t close_stop(int64_t cluster) const { return start[cluster] + close[cluster]; }
     GP_INLINE bool is_partly_seen(int64_t cluster) const { return partly_seen && partly_seen[cluster]; }
     // The weight of entry k, 0 in the lanes that do not see it.
-    GP_INLINE Lanes seen(const Lanes &w, int64_t k) const {
-        const unsigned lanes = seen_by[k];
-        return w * Lanes{double(lanes & 1), double(lanes >> 1 & 1), double(lanes >> 2 & 1), double(lanes >> 3 & 1)};
-    }
+    GP_INLINE Lanes seen(const Lanes &w, int64_t k) const { return seen_by_lanes(w, seen_by[k]); }
 };
 
-// Calls body(block, first, last) for the clusters first .. last of each block of particles.
-template <class Body> void for_each_cluster_block(const World &world, const Body &body) {
+// Calls body(block, first, last) for the clusters first .. last of each block of particles that is awake.
+template <class Body> void for_each_awake_cluster_block(const World &world, const Body &body) {
     const int32_t *of_block = world.clusters.cluster_of_block.data();
-    for_each_block(world.threads, world.particles.count,
-                   [&](int64_t block, int64_t, int64_t) { body(block, of_block[block], of_block[block + 1]); });
+    for_each_awake_block(world,
+                         [&](int64_t block, int64_t, int64_t) { body(block, of_block[block], of_block[block + 1]); });
+}
+// And of those asleep that these see.
+template <class Body> void for_each_seen_cluster_block(const World &world, const Body &body) {
+    const int32_t *of_block = world.clusters.cluster_of_block.data();
+    for_each_seen_block(world,
+                        [&](int64_t block, int64_t, int64_t) { body(block, of_block[block], of_block[block + 1]); });
 }
 
 // A plate with its own idea of friction passes no shear: of a sum of velocity differences (x) ways to its ghosts, the

@@ -31,7 +31,7 @@ GP_INLINE void add_shape(Moments &sum, const int32_t *__restrict row, int64_t n,
     sum.kyy += kyy;
 }
 
-GP_MULTIVERSION void shape_rows(const View &v, int64_t begin, int64_t end) {
+void shape_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         Moments m;
         add_shape(m, v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.x, v.y, v.inverse_radius);

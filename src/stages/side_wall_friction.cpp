@@ -3,7 +3,7 @@
 // a particle that the friction stops within the step stands, whatever the rest of the forces is.
 #include <cmath>
 
-#include "parallel.hpp"
+#include "awake.hpp"
 #include "stages/push.hpp"
 #include "stages/stages.hpp"
 
@@ -14,7 +14,7 @@ void side_wall_friction(World &world) {
     const gp_config &config = world.scene->config();
     const double dt = world.clock.dt;
     const double impulse = 2 * config.channel_friction / config.channel_width * dt; // per pressure
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double loss = 0;
         for (int64_t i = begin; i < end; ++i) {
             const double speed = std::hypot(p.vx[i], p.vy[i]);

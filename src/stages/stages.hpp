@@ -70,6 +70,17 @@ void collide(World &world);
 void wall_contact(World &world);
 // Energy ledger and extremes of this step.
 void account(World &world);
+// With gp_config.sleep. Wakes what something may reach in this step; lays down what nothing does, at its end.
+void wake(World &world);
+void sleep(World &world);
+// After a change that all material feels.
+void wake_all(World &world);
+// The loads of what sleeps on the plates.
+void add_held_loads(World &world);
+// Before and after the stress: keep what is needed of what is quiet when it sleeps; after it also sigma K^-1 of what sleeps and is
+// seen.
+void remember_shape(World &world);
+void hold_stress(World &world);
 // The part of account that the next step's size follows from; also run before the first step.
 void measure_velocities(World &world);
 

@@ -1,9 +1,9 @@
 // Elastic trial, return map and sigma K^-1, four particles at a time.
 #include <algorithm>
 
+#include "awake.hpp"
 #include "lanes.hpp"
 #include "material/fluidity.hpp"
-#include "parallel.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -157,8 +157,10 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
             cxy -= share * pxy;
             cyx -= share * pyx;
             cyy -= share * pyy;
-            places.store(p.stressed.data(), last, stressed);
+            places.store(p.gyy.data(), last, stressed); // which is over
         }
+        places.store(p.gxx.data(), last, old.xx);
+        places.store(p.gxy.data(), last, old.xy);
         places.store(p.sxx.data(), last, after.xx);
         places.store(p.sxy.data(), last, after.xy);
         places.store(p.cxx.data(), last, cxx);
@@ -169,19 +171,19 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
     sums = {sum_of(plastic), sum_of(internal), sum_of(damped)};
 }
 
-GP_MULTIVERSION void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<false, false>(world, one_material, begin, end, sums);
 }
 
-GP_MULTIVERSION void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<true, false>(world, one_material, begin, end, sums);
 }
 
-GP_MULTIVERSION void fluid_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void fluid_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<false, true>(world, one_material, begin, end, sums);
 }
 
-GP_MULTIVERSION void fluid_penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void fluid_penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     stress_rows<true, true>(world, one_material, begin, end, sums);
 }
 
@@ -195,7 +197,9 @@ void stress(World &world) {
     const std::vector<int32_t> &materials = world.constants.body_material;
     const bool one_material =
         std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    if (world.sleep.may_rest)
+        remember_shape(world);
+    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         StressSums of_block;
         rows(world, one_material, begin, end, of_block);
         BlockSums &sums = world.sums[block];
@@ -203,6 +207,14 @@ void stress(World &world) {
         sums.bulk = p.volume * of_block.damped * world.clock.dt;
         sums.internal_power = p.volume * of_block.internal;
     });
+    // K^-1 has done its work: in its memory are now the deviator before the step, should this be taken back, and what the
+    // penalty goes by.
+    hand_over(p.gxx, world.step_start.sxx);
+    hand_over(p.gxy, world.step_start.sxy);
+    if (penalty)
+        hand_over(p.gyy, p.stressed);
+    if (world.sleep.may_rest)
+        hold_stress(world);
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (world.constants.penalty > 0)
         world.images.copy(p.stressed);

@@ -44,7 +44,8 @@ void update_neighbors(World &world) {
     const double shift = world.clock.dt > 0 ? world.velocity_span * world.clock.dt : 0.0;
     // The collisions at the end of this step read the lists too: its own shift counts beforehand.
     if (world.lists_valid && world.shifted + shift <= world.skin && world.walls.chains_stand()) {
-        world.walls.face_facets(world.particles);
+        if (!world.sleep.all())
+            world.walls.face_facets(world.particles);
         return;
     }
     world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(shift / c.spacing), thinnest_skin, thickest_skin);
@@ -83,10 +84,11 @@ void make_lists(World &world) {
                               !by_number_density(c.scheme), world.threads);
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
+    world.walls.lanes.make(world.walls, world.clusters);
     if (c.scheme == Scheme::implicit)
         world.mirrors.find(world.walls, world.particles, world.grid, world.images,
                            mirror_reach * c.spacing + world.skin);
-    world.lists_valid = world.lists_new = world.lists_whole = true;
+    world.lists_valid = world.lists_new = world.lists_whole = world.sleep.stale = true;
     world.listed.clear();
 }
 

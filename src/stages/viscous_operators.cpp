@@ -30,9 +30,8 @@ struct View {
           ixx(world.viscous.inner_xx.data()), ixy(world.viscous.inner_xy.data()), iyy(world.viscous.inner_yy.data()) {}
 };
 
-GP_MULTIVERSION void pair_rows(const Rows &rows, const double *__restrict x, const double *__restrict y,
-                               double inverse_radius, double *__restrict qx, double *__restrict qy,
-                               double *__restrict ws, int64_t begin, int64_t end) {
+void pair_rows(const Rows &rows, const double *__restrict x, const double *__restrict y, double inverse_radius,
+               double *__restrict qx, double *__restrict qy, double *__restrict ws, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = x[i], yi = y[i];
 #pragma omp simd
@@ -152,8 +151,8 @@ struct Gradients {
     double *inner_xx, *inner_xy, *inner_yx, *inner_yy; // that of the particles alone
 };
 
-GP_MULTIVERSION void rate_rows(const View &v, const double *__restrict ux, const double *__restrict uy,
-                               const double *gx, const double *gy, const Gradients &l, int64_t begin, int64_t end) {
+void rate_rows(const View &v, const double *__restrict ux, const double *__restrict uy, const double *gx,
+               const double *gy, const Gradients &l, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double ui = ux[i], vi = uy[i];
         double mxx = 0, mxy = 0, myx = 0, myy = 0;
@@ -275,8 +274,8 @@ struct Sources {
     const double *cxx, *cxy, *cyx, *cyy, *stiffness, *ux, *uy;
 };
 
-GP_MULTIVERSION void force_rows(const View &v, const World &world, const VectorField &u, const Sources &sources,
-                                double *fx, double *fy, int64_t begin, int64_t end) {
+void force_rows(const View &v, const World &world, const VectorField &u, const Sources &sources, double *fx, double *fy,
+                int64_t begin, int64_t end) {
     const double *__restrict cxx = sources.cxx, *__restrict cxy = sources.cxy, *__restrict cyx = sources.cyx,
                              *__restrict cyy = sources.cyy;
     const double *__restrict stiffness = sources.stiffness, *__restrict ux = sources.ux, *__restrict uy = sources.uy;
@@ -377,9 +376,9 @@ void make_inner_shapes(World &world) {
     });
 }
 
-GP_MULTIVERSION void diagonal_rows(const View &v, const double *__restrict kxx, const double *__restrict kxy,
-                                   const double *__restrict kyy, const double *__restrict stiffness, double *diagonal,
-                                   int64_t begin, int64_t end) {
+void diagonal_rows(const View &v, const double *__restrict kxx, const double *__restrict kxy,
+                   const double *__restrict kyy, const double *__restrict stiffness, double *diagonal, int64_t begin,
+                   int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         double qx = 0, qy = 0, sum = 0;
 #pragma omp simd reduction(+ : qx, qy, sum)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awake.hpp"
 #include "stages/push.hpp"
 #include "stages/stages.hpp"
 #include "stages/wall_law.hpp"
@@ -35,22 +36,22 @@ double friction_of_blow(const World &world, const Contact &contact, double appro
 void wall_contact(World &world) {
     const Particles &p = world.particles;
     const double nearest = contact_distance * world.constants.spacing;
-    for (const Contact &contact : world.walls.contacts) {
+    for_each_awake_contact(world, [&](const Contact &contact) {
         const Segment &s = world.walls.facets[contact.facet].segment;
         const int64_t i = contact.particle;
         const Vector at = place_over(world, contact);
         if (s.distance(at) >= nearest || !world.walls.faces(contact.facet, at))
-            continue;
+            return;
         const Vector relative = Vector(p.vx[i], p.vy[i]) - world.walls.velocity_at(contact.facet, at);
         const double approach = -s.normal.dot(relative);
         if (approach <= 0)
-            continue;
+            return;
         const double slip = s.tangent.dot(relative);
         const double mu = friction_of_blow(world, contact, approach, {rate_per_slip(s, at, world.constants.spacing), 0},
                                            std::abs(slip));
         const double stop = std::min(std::abs(slip), mu * approach);
         push_by_plate(world, contact, approach * s.normal + (slip > 0 ? -stop : stop) * s.tangent);
-    }
+    });
 }
 
 // What a plate does to a particle in a step of the implicit scheme is one impulse, found before the solve for what the stress

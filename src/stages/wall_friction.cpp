@@ -4,6 +4,7 @@
 // A stress or a stress ratio carried on through the surface by ghosts, and the zero-energy penalty towards them, braked a
 // sliding layer of 2, 3, 6, 10 rows with 1.11, 1.14, 1.09, 1.05 of mu times its weight, and put 18 % too much on the rough walls
 // of a silo; the run-out of a collapse erred by 15 % at L/dl = 32 for it, and depended on the horizon.
+#include "awake.hpp"
 #include "stages/push.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
@@ -59,44 +60,51 @@ double elastic_rate(const World &world, const Contact &contact) {
 // surface. What stretches along the plate as well has less left to shear: of the deviator s at yield, its part s_nn across
 // the plate is the particle's own (the material's, not the wall's); with mu N in full, R90 of the collapse with a = 1.25 is
 // 24, 10 % too small at L/dl = 16, 32. Inside the yield surface it may shear until it is there.
-double rough_ratio(const World &world, const Contact &contact, double mu) {
-    const Particles &p = world.particles;
-    const int64_t i = contact.particle;
-    const Vector &n = world.walls.facets[contact.facet].segment.normal;
-    const double across = p.sxx[i] * (n.x() * n.x() - n.y() * n.y()) + 2 * p.sxy[i] * n.x() * n.y(); // s_nn
-    const double whole =
-        std::max(equivalent_stress({p.sxx[i], p.sxy[i]}), world.map_of(i).mu_s * p.pressure[i]); // |s| at yield
-    const double shear2 = whole * whole - across * across, normal = whole - mu * across;
-    if (normal <= 0)
-        return mu; // free of stress
-    return shear2 > 0 ? mu * std::sqrt(shear2) / normal : 0.0;
-}
+struct RoughShare {
+    double whole = 0, across = 0, shear = 0; // Pa: |s| at yield, s_nn, what is left to shear
+
+    RoughShare(const World &world, const Contact &contact) {
+        const Particles &p = world.particles;
+        const int64_t i = contact.particle;
+        const Vector &n = world.walls.facets[contact.facet].segment.normal;
+        across = p.sxx[i] * (n.x() * n.x() - n.y() * n.y()) + 2 * p.sxy[i] * n.x() * n.y();
+        whole = std::max(equivalent_stress({p.sxx[i], p.sxy[i]}), world.map_of(i).mu_s * p.pressure[i]);
+        const double shear2 = whole * whole - across * across;
+        shear = shear2 > 0 ? std::sqrt(shear2) : 0.0;
+    }
+    double of(double mu) const {
+        const double normal = whole - mu * across;
+        return normal > 0 ? mu * shear / normal : mu; // mu: free of stress
+    }
+};
 
 template <bool Fluid> void brake_contacts(World &world) {
     const Particles &p = world.particles;
     const bool sticks =
         world.constants.scheme != Scheme::adjoint; // rough plates in the paper's schemes, by their ghosts
-    for (const Contact &contact : world.walls.contacts) {
+    for_each_awake_contact(world, [&](const Contact &contact) {
         const Facet &facet = world.walls.facets[contact.facet];
         const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
         if (facet.spec->friction == GP_WALL_FREE_SLIP || (rough && sticks))
-            continue;
+            return;
         const int64_t i = contact.particle;
         const Segment &s = facet.segment;
         const double normal = s.normal.x() * contact.force_x + s.normal.y() * contact.force_y;
+        if (normal <= 0)
+            return;
         const double slip =
             s.tangent.dot(Vector(p.vx[i], p.vy[i]) - world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]}));
-        if (slip == 0 || normal <= 0)
-            continue;
+        if (slip == 0)
+            return;
         const double direction = slip > 0 ? 1 : -1;
         // A particle without stress of its own is under what its plate presses it with.
         const double pressure = std::max(p.pressure[i], normal * world.constants.spacing);
         const double once = normal * world.clock.dt / world.material_of(i).density; // m/s, of friction 1
         const ReturnMap &law = world.map_of(i);
         const SurfaceRate rate = surface_rate(world, contact, direction);
-        const auto ratio_of = [&](double mu) {
-            return rough ? rough_ratio(world, contact, mu) : wall_friction_bound(*facet.spec, mu);
-        };
+        const double half = law.rate_factor * root(pressure);
+        const RoughShare share(world, contact);
+        const auto ratio_of = [&](double mu) { return rough ? share.of(mu) : wall_friction_bound(*facet.spec, mu); };
         const bool fluid = Fluid && world.is_fluid(i) && p.pressure[i] > 0;
         // Between plate and particle: of the fluidity, and of the plastic rate.
         const double between = fluid ? (facet.spec->fluidity == GP_FLUIDITY_ZERO ? 0.5 : 1.0) * p.fluidity[i] : 0.0;
@@ -107,17 +115,17 @@ template <bool Fluid> void brake_contacts(World &world) {
         for (int pass = 0; pass < 2; ++pass) {
             const double per_mu = once * ratio_of(mu) / std::max(mu, 1e-300);
             mu = fluid ? friction_left(law, between, mean_rate, std::abs(slip), per_mu)
-                       : friction_left(law, rate, std::abs(slip), per_mu, pressure);
+                       : friction_left_by(law, half, rate, std::abs(slip), per_mu);
         }
         const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
         if (stop <= 0)
-            continue;
+            return;
         const double before = world.ledger.dissipated;
         push_by_plate(world, contact, -direction * stop * s.tangent);
         // The plastic part has counted the shear towards the ghosts of a rough plate already; that is taken off the walls'.
         if (rough)
             world.ledger.walls += world.ledger.dissipated - before;
-    }
+    });
 }
 
 } // namespace

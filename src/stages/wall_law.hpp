@@ -23,16 +23,20 @@ struct SurfaceRate {
 // root of
 //   rate = slope (slip - per_mu mu(rate)) + inside.
 // By the rate before the step large grains, which go from mu_s to mu_2 with the least motion, were held and let go by turns.
-inline double friction_left(const ReturnMap &law, const SurfaceRate &rate, double slip, double per_mu,
-                            double pressure) {
-    const double half = law.rate_factor * root(pressure); // the rate of half way from mu_s to mu_2
+// half: the rate of half way from mu_s to mu_2 under the particle's pressure.
+inline double friction_left_by(const ReturnMap &law, double half, const SurfaceRate &rate, double slip, double per_mu) {
     const double free = rate.slope * slip + rate.inside, held = rate.slope * per_mu;
     const double c = half * (held * law.mu_s - free);
     if (c >= 0) // mu_s stops it
         return law.mu_s;
     const double b = half - free + held * law.mu_2;
     const double discriminant = root(b * b - 4 * c);
-    return law.friction(b > 0 ? -2 * c / (b + discriminant) : 0.5 * (discriminant - b), pressure);
+    const double left = b > 0 ? -2 * c / (b + discriminant) : 0.5 * (discriminant - b);
+    return left > 0 ? law.mu_s + (law.mu_2 - law.mu_s) * left / (left + half) : law.mu_s;
+}
+inline double friction_left(const ReturnMap &law, const SurfaceRate &rate, double slip, double per_mu,
+                            double pressure) {
+    return friction_left_by(law, law.rate_factor * root(pressure), rate, slip, per_mu);
 }
 
 // The same with the granular fluidity: of uniform shear stress between plate and particle it is the mean rate over the mean

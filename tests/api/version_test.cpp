@@ -1,6 +1,9 @@
 // Status texts, version, features, and the text of the last error.
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "api_support.hpp"
@@ -22,6 +25,64 @@ TEST(Version, FeaturesAreZeroOrOne) {
     for (const char *name : {"", "HDF5", "hdf", "hdf5 ", "mpi"})
         EXPECT_EQ(gp_has_feature(name), 0) << name;
     EXPECT_EQ(gp_has_feature(nullptr), 0);
+}
+
+namespace {
+
+constexpr const char *levels[] = {"generic", "x86-64", "x86-64-v2", "x86-64-v3", "x86-64-v4"};
+
+// Sets an environment variable for a while.
+struct Environment {
+    Environment(const char *name, const char *value) : name_(name) {
+        if (const char *before = std::getenv(name))
+            before_ = before;
+        setenv(name, value, 1);
+    }
+    Environment(const Environment &) = delete;
+    Environment &operator=(const Environment &) = delete;
+    ~Environment() {
+        if (before_)
+            setenv(name_, before_->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+
+private:
+    const char *name_;
+    std::optional<std::string> before_;
+};
+
+} // namespace
+
+TEST(Version, OneInstructionSetRuns) {
+    int found = 0;
+    for (const char *level : levels)
+        found += gp_has_feature(level);
+    EXPECT_EQ(found, 1);
+#ifdef __x86_64__
+    EXPECT_EQ(gp_has_feature("generic"), 0);
+#else
+    EXPECT_EQ(gp_has_feature("generic"), 1);
+#endif
+}
+
+// What runs is chosen by the first call: to ask for anything else is an error, not ignored.
+TEST(Version, AskingForAnInstructionSetThatDoesNotRunIsRefused) {
+    const gp_config config = make_config();
+    for (const char *level : {levels[0], levels[1], levels[2], levels[3], levels[4], "", "avx2", "X86-64"}) {
+        const Environment environment("GRANPERI_LEVEL", level);
+        gp_sim *sim = nullptr;
+        if (gp_has_feature(level)) {
+            EXPECT_EQ(gp_create(&config, &sim), GP_OK) << level;
+            gp_destroy(sim);
+            continue;
+        }
+        EXPECT_EQ(gp_create(&config, &sim), GP_E_UNSUPPORTED) << level;
+        EXPECT_EQ(sim, nullptr);
+        EXPECT_TRUE(last_error_has("GRANPERI_LEVEL") && last_error_has(level) && last_error_has("x86-64"))
+            << gp_last_error();
+        EXPECT_EQ(gp_load_file("nowhere.h5", &sim), GP_E_UNSUPPORTED) << level;
+    }
 }
 
 TEST(Status, EveryStatusHasItsOwnText) {

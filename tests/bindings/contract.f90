@@ -71,7 +71,7 @@ contains
         type(gp_config), intent(in) :: a, b
         logical :: same
         integer(c_int8_t), parameter :: mold(1) = [0_c_int8_t]
-        ! Padding is the compiler's: struct_size is followed by 4 bytes, threads, preset and retry_halvings likewise.
+        ! Padding is the compiler's: struct_size is followed by 4 bytes, threads and preset likewise.
         same = a%struct_size == b%struct_size .and. abs(a%spacing - b%spacing) <= 0 .and. a%seed == b%seed .and. &
                a%stress == b%stress .and. a%density == b%density .and. a%preset == b%preset .and. &
                all(transfer([a%gravity_x, a%gravity_y, a%cfl, a%horizon, a%friction_factor, a%delta, a%jitter, &

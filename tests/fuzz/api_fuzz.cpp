@@ -54,7 +54,8 @@ const Item config_items[] = {D(gp_config, spacing, dl),
                              D(gp_config, implicit_tolerance, 1e-4),
                              I(gp_config, implicit_iterations, 20),
                              I(gp_config, allow_unstable_step, 1),
-                             I(gp_config, retry_halvings, 3)};
+                             I(gp_config, retry_halvings, 3),
+                             I(gp_config, sleep, 1)};
 const Item material_items[] = {D(gp_material, grain_density, 2500),
                                D(gp_material, volume_fraction, 0.6),
                                D(gp_material, grain_diameter, 0.002),

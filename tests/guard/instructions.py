@@ -34,7 +34,7 @@ def skip(why):
 
 
 def processor_has_avx2():
-    """Valgrind runs the clones for AVX2 where the processor has it, never those for AVX-512."""
+    """Where the processor has AVX2, valgrind runs the engine for x86-64-v3, else that for x86-64."""
     try:
         return re.search(r"^flags\s*:.*\bavx2\b.*\bfma\b|^flags\s*:.*\bfma\b.*\bavx2\b",
                          pathlib.Path("/proc/cpuinfo").read_text(), re.M) is not None

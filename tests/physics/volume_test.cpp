@@ -88,18 +88,25 @@ double bagnold(double slope, double y) {
 } // namespace
 
 // At 20 s, after a strain of some 600, the height was .57 of that of the start without jitter, less with. 1 % and 2 % are what
-// is asked for at 10 and 20 spacings; from 8 s on the start-up lacks .3 % of the steady velocity, its mean over 8 s scatters
-// by .3 %.
+// is asked for at 10 and 20 spacings; from 8 s on the start-up lacks .3 % of the steady velocity. The velocity of one run in its
+// mean over 8 s scatters by 1.5 %: eight seeds have .984 +- .005 by one build, .989 +- .006 by another. So what is asked of three
+// runs' mean is 2 % and two of its standard errors.
 TEST(Volume, OfAnInclinedLayerIsKeptAndItFlowsAsBagnolds) {
     const double slope = 26;
-    ShakenLayer layer(10, slope, 1);
-    const ShakenLayer::Means m = layer.run(16, [&](double y) { return bagnold(slope, y); });
-    std::printf("  height %.4f, surface velocity over Bagnold's %.4f\n", m.height, m.surface);
-    EXPECT_NEAR(m.height, 1, 0.01);
-    EXPECT_NEAR(m.surface, 1, 0.02);
-    const gp_state s = layer.sim.state();
-    EXPECT_LT(s.spacing_dissipated, 0); // it compresses: by what the sinking layer gives
-    EXPECT_GT(s.spacing_dissipated, -0.01 * s.dissipated);
+    constexpr int runs = 3;
+    constexpr double scatter = 0.015;
+    double surface = 0;
+    for (int k = 1; k <= runs; ++k) {
+        ShakenLayer layer(10, slope, k);
+        const ShakenLayer::Means m = layer.run(16, [&](double y) { return bagnold(slope, y); });
+        std::printf("  height %.4f, surface velocity over Bagnold's %.4f\n", m.height, m.surface);
+        EXPECT_NEAR(m.height, 1, 0.01);
+        surface += m.surface / runs;
+        const gp_state s = layer.sim.state();
+        EXPECT_LT(s.spacing_dissipated, 0); // it compresses: by what the sinking layer gives
+        EXPECT_GT(s.spacing_dissipated, -0.01 * s.dissipated);
+    }
+    EXPECT_NEAR(surface, 1, 0.02 + 2 * scatter / std::sqrt(runs));
 }
 
 // Neither the free surface nor p >= 0 is needed to lose volume: under a lid a shaken layer lost .025 of it in a strain of 125,

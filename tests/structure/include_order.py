@@ -5,26 +5,28 @@ import re
 import sys
 
 LAYERS = [
-    ["granperi/gp", "error", "check", "entry", "float_environment", "parallel"],
+    ["granperi/gp", "error", "check", "entry", "float_environment", "level", "parallel"],
     ["geometry", "kernel", "lanes", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/fluidity", "material/linearized"],
     ["scene", "scene_constants", "scene_defaults", "scene_falls", "scene_plates", "scene_stress"],
     ["particles"],
+    ["sleep"],
     ["viscous_system"],
     ["periodic"],
     ["neighbors"],
     ["segment_cells"],
-    ["clusters"],
+    ["clusters", "cluster_rows"],
     ["plate"],
     ["facet_chains"],
     ["sight"],
-    ["mps_operators", "operators", "walls"],
+    ["mps_operators", "operators", "walls", "wall_lanes"],
     ["mirrors"],
-    ["world", "ledger", "undo", "volume_drift"],
+    ["world", "awake", "ledger", "undo", "volume_drift"],
     ["stages/*"],
     ["plan", "plan_implicit", "plan_paper", "stage_rows", "mistakes", "warnings"],
     ["sim"],
     ["sort_by_x", "fields", "diagnostics", "diagnostics_mass", "diagnostics_rest", "diagnostics_shape", "diagnostics_surface", "io/*"],
-    ["api"],
+    ["api", "load_symbol"],
+    ["levels/*"],
 ]
 
 

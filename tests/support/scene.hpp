@@ -43,6 +43,7 @@ inline gp_plate floor_at(double y, double x_min, double x_max, int32_t friction 
 class Sim {
 public:
     explicit Sim(const gp_config &c) { EXPECT_EQ(gp_create(&c, &sim_), GP_OK) << gp_last_error(); }
+    explicit Sim(gp_sim *owned) : sim_(owned) {}
     Sim(const Sim &) = delete;
     Sim &operator=(const Sim &) = delete;
     ~Sim() { gp_destroy(sim_); }

@@ -5,13 +5,13 @@
     trust.py output    --host PROGRAM          the result file of a restarted run has the frames of the unbroken one
     trust.py kill      --host PROGRAM [--count N]   SIGKILL at random moments, then the files are read and gone on with
     trust.py same_bits --host PROGRAM --static PROGRAM   threads, libraries, output, callbacks, what is not used
-    trust.py golden    --host PROGRAM --table FILE [--level L] [--update]   the bits of short runs, by instruction set
-    trust.py levels                            the instruction sets that this processor has
+    trust.py golden    --host PROGRAM --table FILE [--update]   the bits of short runs, by instruction set (GRANPERI_LEVEL)
 
 Exit status 77: this machine cannot run it.
 """
 import argparse
 import os
+import platform
 import random
 import re
 import signal
@@ -47,10 +47,12 @@ class Bench:
     def path(self, name):
         return os.path.join(self.directory, name)
 
-    def run(self, *arguments, host=None, threads=None):
+    def run(self, *arguments, host=None, threads=None, level=None):
         environment = dict(os.environ, OMP_WAIT_POLICY="passive")
         if threads:
             environment["OMP_NUM_THREADS"] = str(threads)
+        if level is not None:
+            environment["GRANPERI_LEVEL"] = level
         self.runs += 1
         done = subprocess.run([host or self.host, *map(str, arguments)], env=environment, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=250)
@@ -218,68 +220,69 @@ def same_bits(bench, options):
     return f"{comparisons} comparisons"
 
 
-def instruction_set():
-    """The level that the loader's resolvers choose: they ask the processor."""
+# Of the engine: cmake/levels.cmake.
+LEVELS = ["x86-64", "x86-64-v3"]
+
+
+def levels():
+    """Those that this processor has. The library's own choice (src/levels/dispatch.cpp) is held to it."""
     with open("/proc/cpuinfo") as info:
         match = re.search(r"^flags\s*:(.*)$", info.read(), re.M)
     flags = set(match.group(1).split()) if match else set()
-    if {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"} <= flags:
-        return "x86-64-v4"
-    if {"avx2", "fma", "bmi1", "bmi2", "f16c", "movbe"} <= flags:
-        return "x86-64-v3"
-    return "x86-64"
-
-
-# Of the pair loops: GP_MULTIVERSION in src/parallel.hpp. In the table "x86-64-v3" is what the library chooses where there is
-# no more, "only-x86-64-v3" a library that is built for that alone (GRANPERI_ONE_VERSION), with other bits again.
-LEVELS = ["x86-64", "x86-64-v3", "x86-64-v4"]
+    return LEVELS if {"avx2", "fma", "bmi1", "bmi2", "f16c", "movbe", "abm"} <= flags else LEVELS[:1]
 
 
 def golden(bench, options):
-    level = options.level or instruction_set()
+    if platform.machine() != "x86_64":
+        print("the table is of x86-64")
+        sys.exit(77)
     table = {}
     if os.path.exists(options.table):
         with open(options.table) as file:
             for line in file:
                 if line.strip() and not line.startswith("#"):
-                    own_level, scene, bits = line.split()
-                    table[own_level, scene] = bits
-    found = {(level, scene): bench.run(scene, "--to-step", 30)[-1].split()[-1] for scene in SCENES}
+                    level, scene, bits = line.split()
+                    table[level, scene] = bits
+    found = {(level, scene): bench.run(scene, "--to-step", 30, level=level)[-1].split()[-1]
+             for level in levels() for scene in SCENES}
     if options.update:
-        table.update(found)
+        if levels() != LEVELS:
+            sys.exit(f"this processor has {', '.join(levels())} alone: the table is of {', '.join(LEVELS)}")
         with open(options.table, "w") as file:
             file.write("# Bits of all particles after 30 steps of each scene of host.cpp, by instruction set. Written by\n"
                        "# scripts/trust golden --update\n")
-            for (own_level, scene), bits in sorted(table.items()):
-                file.write(f"{own_level} {scene} {bits}\n")
-        return f"{len(found)} written for {level}"
-    if not any(own_level == level for own_level, _ in table):
-        print(f"{options.table} has no bits for {level}")
-        sys.exit(77)
-    # What docs/trust.md says of other processors: no two of the levels have the same bits in any scene.
-    alike = [scene for scene in SCENES if len({table.get(("only-" + one, scene)) for one in LEVELS}) < len(LEVELS)]
+            for (level, scene), bits in sorted(found.items()):
+                file.write(f"{level} {scene} {bits}\n")
+        return f"{len(found)} written"
+    wrong = [f"{scene} ({level})" for level, scene in found if table.get((level, scene)) != found[level, scene]]
+    require(not wrong, f"other bits than in {options.table}: {', '.join(wrong)}. Is that meant? Then scripts/trust golden --update")
+    # What docs/trust.md says of other processors: the levels have different bits in each scene.
+    alike = [scene for scene in SCENES if len({table.get((level, scene)) for level in LEVELS}) < len(LEVELS)]
     require(not alike, f"docs/trust.md says that each instruction set has bits of its own, but not in {', '.join(alike)}")
-    wrong = [scene for _, scene in found if table.get((level, scene)) != found[level, scene]]
-    require(not wrong, f"other bits than in {options.table} for {level}: {', '.join(wrong)}. Is that meant? Then "
-            "scripts/trust golden --update")
-    return f"{len(found)} scenes as in the table for {level}"
+    best = levels()[-1]
+    chosen = bench.run(SCENES[0], "--to-step", 30)[-1].split()[-1]
+    require(chosen == found[best, SCENES[0]], f"without GRANPERI_LEVEL it is not {best} that runs")
+    for unknown in ("x86-64-v9", ""):
+        try:
+            bench.run(SCENES[0], "--to-step", 1, level=unknown)
+        except Failure as failure:
+            require("GRANPERI_LEVEL" in str(failure), f"GRANPERI_LEVEL={unknown}: {failure}")
+        else:
+            raise Failure(f"GRANPERI_LEVEL={unknown} is accepted")
+    return f"{len(SCENES)} scenes as in the table, for {' and '.join(levels())}"
 
 
 def main():
     checks = {check.__name__: check for check in (restart, output, kill, same_bits, golden)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("check", choices=[*checks, "levels"])
+    parser.add_argument("check", choices=checks)
     parser.add_argument("--host")
     parser.add_argument("--static")
     parser.add_argument("--count", type=int, default=8)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--table")
-    parser.add_argument("--level")
     parser.add_argument("--update", action="store_true")
     options = parser.parse_args()
-    if options.check == "levels":  # that this processor has
-        print(*LEVELS[:LEVELS.index(instruction_set()) + 1])
-        return
     if options.check in ("output", "kill") and not h5py:
         print("python3-h5py is not there")
         sys.exit(77)

@@ -8,6 +8,7 @@
 #include "stages/stages.hpp"
 #include "stages/viscous_operators.hpp"
 #include "world.hpp"
+#include "world_support.hpp"
 
 using namespace gp;
 
@@ -87,7 +88,7 @@ struct Corner {
         world->clock.dt = 1e-4;
         stages::update_neighbors(*world);
         stages::wall_volume_velocity(*world);
-        stages::gradient(*world);
+        test::make_gradient(*world);
         stages::make_viscous_system(*world);
     }
     VectorField random() {

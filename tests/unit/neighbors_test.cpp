@@ -41,7 +41,7 @@ struct Points {
 };
 
 // Calls found(i, j, entry) for what each particle sees, by its cluster's row.
-template <class Found> void for_each_entry(const World &world, const Found &found) {
+template <class Found> void for_each_seen_of(const World &world, const Found &found) {
     const ClusterList &clusters = world.clusters;
     int64_t expected = 0;
     for (int64_t c = 0; c < clusters.count(); ++c) {
@@ -62,7 +62,7 @@ double distance(const World &world, int64_t i, int64_t j) {
 std::set<std::pair<int64_t, int64_t>> listed_pairs(const World &world) {
     std::set<std::pair<int64_t, int64_t>> pairs;
     const double radius = world.constants.horizon + world.skin;
-    for_each_entry(world, [&](int64_t, int64_t i, int64_t j) {
+    for_each_seen_of(world, [&](int64_t, int64_t i, int64_t j) {
         if (distance(world, i, j) < radius) {
             EXPECT_TRUE(pairs.insert({world.particles.id[i], world.particles.id[j]}).second);
         }
@@ -95,13 +95,13 @@ TEST(Neighbors, AgreeWithBruteForce) {
         const ClusterList &clusters = world.clusters;
         const double close = 0.9 + world.skin;
         for (int64_t c = 0; c < clusters.count(); ++c)
-            for (int64_t k = clusters.start[c]; k < clusters.stop[c]; ++k) {
+            for_each_entry(clusters, c, clusters.start[c + 1], [&](int64_t k, int32_t j) {
                 double nearest = INFINITY;
                 for (int64_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i)
-                    nearest = std::min(nearest, distance(world, i, clusters.index[k]));
+                    nearest = std::min(nearest, distance(world, i, j));
                 EXPECT_LT(nearest, radius);
-                EXPECT_EQ(k < clusters.close_stop[c], nearest < close);
-            }
+                EXPECT_EQ(k < clusters.start[c] + clusters.close[c], nearest < close);
+            });
         // The rows of single particles hold the same.
         NeighborList rows;
         find_neighbors(world.particles, clusters, radius, 1, rows);
@@ -112,6 +112,41 @@ TEST(Neighbors, AgreeWithBruteForce) {
         EXPECT_EQ(of_rows, expected);
         EXPECT_EQ(rows.start[500], static_cast<int64_t>(expected.size()));
     }
+}
+
+// Rows of cells so long that no step of 16 bits leads to the row above: the way goes over places that nobody sees.
+TEST(Neighbors, AreFoundFartherThanAStep) {
+    const int columns = 40000, rows = 4;
+    std::vector<double> x, y;
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            x.push_back(i + 0.1 * std::sin(7.0 * i + j));
+            y.push_back(j + 0.1 * std::cos(5.0 * i - j));
+        }
+    Points points(x, y);
+    const World &world = points.build();
+    const Particles &p = world.particles;
+    const double radius = world.constants.horizon + world.skin;
+    int64_t longest = 0;
+    for (int64_t c = 0; c < world.clusters.count(); c += 97) {
+        const int64_t first = world.clusters.first[c];
+        std::set<int64_t> seen, expected;
+        for_each_entry(world.clusters, c, world.clusters.start[c + 1], [&](int64_t, int32_t j) {
+            ASSERT_GE(j, 0);
+            ASSERT_LT(j, p.count);
+            if (distance(world, first, j) < radius) {
+                EXPECT_TRUE(seen.insert(p.id[j]).second) << "twice";
+                longest = std::max(longest, std::abs(j - first));
+            }
+        });
+        const int64_t own = p.id[first] % columns;
+        for (int j = 0; j < rows; ++j)
+            for (int64_t i = std::max<int64_t>(0, own - 6); i < std::min<int64_t>(columns, own + 7); ++i)
+                if (const int64_t id = j * columns + i; std::hypot(x[id] - p.x[first], y[id] - p.y[first]) < radius)
+                    expected.insert(id);
+        EXPECT_EQ(seen, expected);
+    }
+    EXPECT_GT(longest, 2 * INT16_MAX);
 }
 
 TEST(Neighbors, DoNotSeeEachOtherThroughAPlate) {

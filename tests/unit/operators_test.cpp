@@ -20,7 +20,7 @@ double gradient_error(int n, double jitter) {
     Block block(n, jitter);
     Particles &p = block.world->particles;
     block.set(p.vx, [](double x, double y) { return std::sin(3 * x + 2 * y); });
-    stages::gradient(*block.world);
+    test::make_gradient(*block.world);
     double square = 0;
     int count = 0;
     for (int64_t i = 0; i < p.count; ++i)
@@ -36,10 +36,9 @@ double force_error(int n, double jitter) {
     Block block(n, jitter);
     World &world = *block.world;
     Particles &p = world.particles;
-    stages::gradient(world); // at rest: only the shape tensor
+    test::make_gradient(world); // at rest: only the shape tensor
     block.set(p.pressure, [](double x, double y) { return 2 + std::sin(3 * x + 2 * y); });
-    stages::stress(world);
-    stages::force(world);
+    test::make_force(world);
     const double density = world.constants.materials[0].density;
     double square = 0;
     int count = 0;
@@ -58,7 +57,7 @@ TEST(Gradient, IsExactForLinearFieldsOnAnyParticles) {
     Particles &p = block.world->particles;
     block.set(p.vx, [](double x, double y) { return 0.3 + 2 * x - 5 * y; });
     block.set(p.vy, [](double x, double y) { return -1 + 0.7 * x + 4 * y; });
-    stages::gradient(*block.world);
+    test::make_gradient(*block.world);
     for (int64_t i = 0; i < p.count; ++i) { // free edges and corners included
         ASSERT_NEAR(p.lxx[i], 2, 1e-12);
         ASSERT_NEAR(p.lxy[i], -5, 1e-12);
@@ -85,14 +84,13 @@ TEST(Force, KeepsMomentum) {
     Particles &p = world.particles;
     block.randomise(p.vx, -1, 1);
     block.randomise(p.vy, -1, 1);
-    stages::gradient(world);
+    test::make_gradient(world);
     block.randomise(p.pressure, -1, 1000); // some of it stress-free
     for (double &value : p.pressure)
         value = std::max(value, 0.0);
     block.randomise(p.sxx, -400, 400);
     block.randomise(p.sxy, -400, 400);
-    stages::stress(world);
-    stages::force(world);
+    test::make_force(world);
     double x = 0, y = 0, scale = 0;
     for (int64_t i = 0; i < p.count; ++i) {
         x += p.ax[i];
@@ -110,12 +108,11 @@ TEST(PowerIdentity, HoldsToRounding) {
     Particles &p = world.particles;
     block.randomise(p.vx, -1, 1);
     block.randomise(p.vy, -1, 1);
-    stages::gradient(world);
+    test::make_gradient(world);
     block.randomise(p.pressure, 0, 1000);
     block.randomise(p.sxx, -400, 400);
     block.randomise(p.sxy, -400, 400);
-    stages::stress(world);
-    stages::force(world);
+    test::make_force(world);
     const double of_forces = block.sum(&BlockSums::total_power), of_stresses = block.sum(&BlockSums::internal_power);
     EXPECT_GT(std::abs(of_stresses), 1);
     EXPECT_NEAR(of_forces, -of_stresses, 1e-12 * std::abs(of_stresses) * 10);
@@ -129,22 +126,20 @@ TEST(Penalty, OnlyTakesEnergyAndLeavesLinearMotionAlone) {
         block.generator.seed(seed);
         block.randomise(p.vx, -1, 1);
         block.randomise(p.vy, -1, 1);
-        stages::gradient(world);
+        test::make_gradient(world);
         block.randomise(p.pressure, -500, 500); // half of it stress-free
         for (double &value : p.pressure)
             value = std::max(value, 0.0);
-        stages::stress(world);
-        stages::force(world);
+        test::make_force(world);
         const double taken = -block.sum(&BlockSums::total_power) - block.sum(&BlockSums::internal_power);
         EXPECT_GT(taken, 0) << seed;
 
         block.set(p.vx, [](double x, double y) { return 0.3 + 2 * x - 5 * y; });
         block.set(p.vy, [](double x, double y) { return -1 + 0.7 * x - 2 * y; });
-        stages::gradient(world);
+        test::make_gradient(world);
         for (double &value : p.pressure)
             value = 1e-9;
-        stages::stress(world);
-        stages::force(world);
+        test::make_force(world);
         for (int64_t i = 0; i < p.count; ++i)
             ASSERT_NEAR(p.ax[i], 0, 1e-9);
     }
@@ -202,11 +197,10 @@ TEST(Wave, IsWhatTheStagesMakeOfIt) {
     const auto interior = [](double x, double y) { return std::min({x, y, 1 - x, 1 - y}) > 0.3; };
 
     block.set(p.vx, sine);
-    stages::gradient(world);
+    test::make_gradient(world);
     for (double &value : p.pressure) // stressed and elastic, as the penalty wants it, but without a force of its own
         value = 1e-9;
-    stages::stress(world);
-    stages::force(world);
+    test::make_force(world);
     int64_t looked_at = 0;
     for (int64_t i = 0; i < p.count; ++i) {
         if (!interior(p.x[i], p.y[i]))

@@ -7,9 +7,24 @@
 
 #include "scene.hpp"
 #include "stages/stages.hpp"
+#include "undo.hpp"
 #include "world.hpp"
 
 namespace test {
+
+// The gradient, without the stages of the density to which it leaves something.
+inline void make_gradient(gp::World &world) {
+    gp::stages::flowing(world);
+    gp::stages::gradient(world);
+    world.particles.give_back(false);
+}
+
+// Stress and force, of a step that is good.
+inline void make_force(gp::World &world) {
+    gp::stages::stress(world);
+    gp::stages::force(world);
+    gp::accept_step(world);
+}
 
 struct Block {
     // n x n particles on the unit square, displaced at random by up to jitter spacings.

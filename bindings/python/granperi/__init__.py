@@ -14,6 +14,7 @@ from ._output import Output
 from ._plate import Plate
 from ._result import Result, Snapshot
 from ._scene import Run, Scene, SceneError
+from ._settings import Settings, settings
 from ._simulation import Simulation
 from ._state import Clock, History, Load, PlanEntry, State
 from ._views import FieldView, Particles, View
@@ -23,7 +24,8 @@ __version__ = _text_of(_lib.gp_version_string())
 
 
 def has_feature(name: str) -> bool:
-    """Whether the library was built with "hdf5" or "openmp"; False for other names."""
+    """Whether the library was built with "hdf5" or "openmp", or runs with the instructions of "x86-64-v3" (AVX2), "x86-64" and so on
+    (gp_has_feature has them all); False for other names."""
     return isinstance(name, str) and bool(_lib.gp_has_feature(name.encode("utf-8", "replace").replace(b"\0", b"?")))
 
 
@@ -33,6 +35,7 @@ __all__ = [
     "ArgumentError", "ArgumentTypeError", "Clock", "Column", "Config", "Density", "Difference", "DivergedError", "Error",
     "Estimate", "Field", "FieldView", "FileError", "Fluidity", "GranperiWarning", "History", "InitialPressure", "InternalError",
     "Load", "Material", "OutOfMemoryError", "Output", "Particles", "PlanEntry", "Plate", "Preset", "Result", "Run",
-    "Scene", "SceneError", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",
+    "Scene", "SceneError", "Settings", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",
     "UnsupportedError", "VersionError", "View", "Wall", "compare", "estimate", "has_feature", "load",
+    "settings",
 ]

@@ -124,6 +124,8 @@ def _info(options: argparse.Namespace) -> None:
         print(f"granperi {granperi.__version__}")
         for feature in ("hdf5", "openmp"):
             print(f"{feature:<8}{'yes' if granperi.has_feature(feature) else 'no'}")
+        levels = ("generic", "x86-64", "x86-64-v2", "x86-64-v3", "x86-64-v4")
+        print(f"{'runs for':<10}{next(level for level in levels if granperi.has_feature(level))}")
         return
     if options.file.endswith((".h5", ".hdf5")):
         with Result(options.file) as result:

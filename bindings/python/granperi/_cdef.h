@@ -78,6 +78,7 @@ typedef struct gp_config {
     int32_t implicit_iterations;
     int32_t allow_unstable_step;
     int32_t retry_halvings;
+    int32_t sleep;
 } gp_config;
 
 gp_status gp_config_init(gp_config *config, size_t size, int32_t preset);

@@ -270,6 +270,7 @@ class Config(Parameters):
     implicit_iterations: int
     allow_unstable_step: int
     retry_halvings: int
+    sleep: int
 
     def __init__(self, preset: "int | str | Preset" = Preset.DEFAULT, **values: Any):
         chosen = choice(Preset, "gp_config.preset", preset)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import math
 import os
 import re
 import tomllib
@@ -172,6 +173,28 @@ class Scene:
                 sim.close()
                 raise SceneError(f"{part.where()}: {error}") from None
         return sim
+
+    def smallest_side(self) -> float:
+        """The smallest width or height [m] of the scene's columns. ArgumentError: it has none, or particles given one by one,
+        whose spacing is theirs."""
+        if any(part.kind == "particles" for part in self._parts):
+            raise ArgumentError(f"{self.name}: has particles given one by one, whose spacing is theirs: expected a scene of "
+                                "columns, or a length in m")
+        sides = [self._side(part, key) for part in self._parts if part.kind == "column" for key in ("width", "height")]
+        if not sides:
+            raise ArgumentError(f"{self.name}: has no column whose sides could be resolved: expected a scene of columns, or a "
+                                "length in m")
+        return min(sides)
+
+    @staticmethod
+    def _side(column: _Part, key: str) -> float:
+        try:
+            side = number(f"gp_column.{key}", column.values.get(key, 0.0))
+            if not (math.isfinite(side) and side > 0):
+                raise ArgumentError(f"gp_column.{key} = {side:g}: expected a finite number above 0")
+        except Error as error:
+            raise SceneError(f"{column.where()}: {error}") from None
+        return side
 
     def record(self, path: str | None = None, progress: bool = False) -> History:
         """Builds the scene and runs it as its table [run] says; the frames go to `path` or run.output."""

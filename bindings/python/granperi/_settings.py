@@ -1,0 +1,99 @@
+"""Recommended settings, with the errors and costs that were measured with them."""
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+from typing import Any
+
+from ._errors import ArgumentError, ArgumentTypeError, near_match, number
+from ._objects import Config
+from ._scene import Scene, scene_of
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    """Settings for bodies whose smallest side is `length`, and what they erred and cost in three collapses.
+
+    name: "draft", "standard" or "fine". length [m]: the smallest side of a column. spacing [m], horizon [spacings], sleep: the
+    parameters of Config; all others stay what they are. aim: what one run of the column with a = 1.25 errs by less than, 0.1,
+    0.05 or 0.02. peak_error, runout_error: measured relative error of one run (bias and scatter, root mean square) in the
+    peak, and in the run-out of 90 % of the mass, in the worst of the three. cpu_seconds: of one run with a = 1.25 to 1 s, one
+    thread.
+    """
+
+    name: str
+    length: float
+    spacing: float
+    horizon: float
+    sleep: int
+    aim: float
+    peak_error: float
+    runout_error: float
+    cpu_seconds: float
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """The parameters of Config that the settings choose, by name."""
+        return {"spacing": self.spacing, "horizon": self.horizon, "sleep": self.sleep}
+
+    def config(self, config: Config | None = None) -> Config:
+        """`config` (the library's defaults) with these settings; what else it says stays."""
+        return (config or Config()).replace(**self.values)
+
+    def __str__(self) -> str:
+        return (f"{self.name}: spacing {self.spacing:.4g} m ({self.length / self.spacing:.0f} over {self.length:.4g} m), "
+                f"horizon {self.horizon:g} spacings, sleep {self.sleep}\n"
+                f"measured: one run erred by {100 * self.peak_error:.1f} % in the peak, {100 * self.runout_error:.1f} % in the "
+                f"run-out of 90 % of the mass, in the worst of three collapses; {self.cpu_seconds:.2g} CPU s to 1 s with a = 1.25\n"
+                "another scene errs otherwise: compare two spacings of it, granperi.estimate")
+
+
+@dataclasses.dataclass(frozen=True)
+class _Level:
+    """Spacings over the smallest side and horizon [spacings]; aim, errors and cost as in docs/settings.md."""
+
+    spacings: int
+    horizon: float
+    aim: float
+    peak_error: float
+    runout_error: float
+    cpu_seconds: float
+
+
+_LEVELS = {
+    "draft": _Level(10, 4.0, 0.10, 0.081, 0.071, 0.10),
+    "standard": _Level(15, 4.0, 0.05, 0.042, 0.029, 0.32),
+    "fine": _Level(25, 3.0, 0.02, 0.016, 0.014, 0.93),
+}
+
+
+def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Settings:
+    """Recommended settings of the default scheme for a scene, or for bodies of a length.
+
+    name: "draft" to see that a scene is right, "standard" for results, "fine" to see whether they still move. of: a Scene, the
+    path of a scene file, or the smallest side [m] of the bodies that are to be resolved, finite and above 0. A scene's is the
+    smallest width or height of its columns. Where something smaller decides (an opening, an obstacle, a thin layer), give its
+    length.
+
+        scene = granperi.Scene.read("collapse.toml")
+        scene.config = granperi.settings("standard", scene).config(scene.config)
+
+    Errors and cost are those of three collapses of glass beads (docs/settings.md): what another scene errs by, only runs of it
+    at two spacings tell, as granperi.estimate makes them; its cost grows as its particles and its steps. With granular fluidity
+    take the smaller of this spacing and half a grain. sleep = 1 ends creep slower than 0.006 sqrt(g spacing): set 0 where creep
+    is the question.
+
+    ArgumentError: another name; a length that is not finite or not above 0; a scene without columns, or with particles given
+    one by one, which have a spacing of their own.
+    """
+    if not isinstance(name, str):
+        raise ArgumentTypeError(f"name = {name!r:.80}: expected one of {', '.join(_LEVELS)}")
+    if name not in _LEVELS:
+        raise ArgumentError(f"name = {name!r:.80}: {near_match(name, _LEVELS)}")
+    length = scene_of(of).smallest_side() if isinstance(of, (Scene, str, os.PathLike)) else number("of", of)
+    if not (math.isfinite(length) and length > 0):
+        raise ArgumentError(f"of = {length:g}: expected a finite length above 0 m, or a scene")
+    level = _LEVELS[name]
+    return Settings(name, length, length / level.spacings, level.horizon, 1, level.aim, level.peak_error, level.runout_error,
+                    level.cpu_seconds)
