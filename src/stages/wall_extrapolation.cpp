@@ -41,8 +41,9 @@ template <class Sums> GP_INLINE Sums sums_of_group(const View &view, int64_t gro
     return local;
 }
 
-// Sums of w, of w times velocity and way from the ghost, and of w of the particles under pressure inside the yield surface.
-struct VelocitySums {
+// Sums of w, of w times velocity and way from the ghost, and, for ghosts that carry the shear on, of w of what does not flow under
+// pressure.
+template <bool Sheared> struct VelocitySums {
     const double *__restrict vx, *__restrict vy, *__restrict pressure, *__restrict flowing;
     Lanes w{}, u{}, v{}, x{}, y{}, held{};
 
@@ -54,7 +55,8 @@ struct VelocitySums {
         v += weight * vy[i];
         x += weight * dx;
         y += weight * dy;
-        held += weight * (pressure[i] > 0 && flowing[i] > 0 ? 0.0 : 1.0);
+        if (Sheared) // else nobody has found out yet who flows
+            held += weight * (pressure[i] > 0 && flowing[i] > 0 ? 0.0 : 1.0);
     }
 };
 
@@ -111,7 +113,7 @@ constexpr double steepest_tangential = 0.5, normal_ratio = 0.25;
 // drive its collapses with 1.6 % of the initial energy at L/dl = 32, these with .6 %.)
 template <bool Sheared> void extrapolate_velocity(World &world) {
     Walls &w = world.walls;
-    for_each_ghost<VelocitySums>(world, [&](int64_t k, const VelocitySums &sums, int lane) {
+    for_each_ghost<VelocitySums<Sheared>>(world, [&](int64_t k, const VelocitySums<Sheared> &sums, int lane) {
         const int32_t facet = w.ghost_facet[k];
         const Vector at(w.ghost_x[k], w.ghost_y[k]), own = w.velocity_at(facet, at);
         const Vector n(w.ghost_nx[k], w.ghost_ny[k]), t(-n.y(), n.x());
@@ -127,7 +129,7 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
         const double ratio = w.ghost_distance[k] / distance;
         const double normal = -normal_ratio * n.dot(relative);
         // Without friction of its own a plate passes no shear through its surface.
-        const bool rough = w.facets[facet].spec->friction == GP_WALL_NO_SLIP, flows = sums.held[lane] == 0;
+        const bool rough = w.facets[facet].spec->friction == GP_WALL_NO_SLIP, flows = Sheared && sums.held[lane] == 0;
         const double carried = Sheared ? -(flows ? ratio : std::min(ratio, steepest_tangential)) : 0.0;
         const double tangential = (rough ? carried : 1.0) * t.dot(relative);
         const Vector ghost = own + normal * n + tangential * t;
