@@ -26,21 +26,15 @@ template <class Body> void for_each_seen_block(const World &world, const Body &b
         for_each_block(world.threads, world.particles.count, body);
 }
 
-// Calls body(begin, end) for runs of the contacts of what is awake, and of the ghosts that it sees: few at a time.
-template <class Body>
-void for_each_awake_run(const World &world, const std::vector<IndexRun> &runs, int64_t n, const Body &body) {
+// Calls body(begin, end) for runs of the ghosts that what is awake sees: few at a time.
+template <class Body> void for_each_awake_ghost_run(const World &world, const Body &body) {
+    const std::vector<IndexRun> &runs = world.sleep.ghosts;
     if (world.sleep.some)
         for_each_block<1>(world.threads, static_cast<int64_t>(runs.size()),
                           [&](int64_t k, int64_t, int64_t) { body(runs[k].begin, runs[k].end); });
     else
-        for_each_block<ghost_block_size>(world.threads, n,
+        for_each_block<ghost_block_size>(world.threads, world.walls.ghost_count,
                                          [&](int64_t, int64_t begin, int64_t end) { body(begin, end); });
-}
-template <class Body> void for_each_awake_contact_run(const World &world, const Body &body) {
-    for_each_awake_run(world, world.sleep.contacts, static_cast<int64_t>(world.walls.contacts.size()), body);
-}
-template <class Body> void for_each_awake_ghost_run(const World &world, const Body &body) {
-    for_each_awake_run(world, world.sleep.ghosts, world.walls.ghost_count, body);
 }
 
 // Calls body(contact) for the contacts of what is awake, in their order.

@@ -93,14 +93,19 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
     gather_items(asleep, scratch_uint8_);
 }
 
+void Particles::give_back_accelerations() {
+    hand_over(flowing, ax);
+    if (ay.empty())
+        hand_over(bearing.empty() ? bearing_flow : bearing, ay);
+}
+
 void Particles::give_back(bool stressed_in_shape) {
     const auto give = [](Field<double> &from, Field<double> &to) {
         if (!from.empty())
             hand_over(from, to);
     };
-    give(flowing, ax);
-    if (ay.empty())
-        give(bearing.empty() ? bearing_flow : bearing, ay);
+    if (ax.empty())
+        give_back_accelerations();
     give(crowding, cyx);
     give(carried, cyy);
     if (stressed_in_shape)

@@ -102,6 +102,8 @@ struct Particles {
     // Puts the carried fields into the order old_index[new], by way of ax: between steps nobody reads accelerations.
     void reorder(const Field<int32_t> &old_index, int threads);
 
+    // After the gradient: what it went by in their memory is over.
+    void give_back_accelerations();
     // After a step that did not come to its end: what lies in the memory of other fields gives it back.
     void give_back(bool stressed_in_shape);
 

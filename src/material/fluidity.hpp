@@ -30,7 +30,7 @@ struct Fluidity {
                                  const Lanes &inertia, const Lanes &carried) {
         const Lanes one = Lanes{} + 1.0;
         const Lanes mu = trial / pressure, a = map.shear_modulus * dt / pressure;
-        const Lanes unit = map.rate_factor * root(pressure), span = map.mu_2 - map.mu_s, drag = span / unit;
+        const Lanes unit = map.half_rate(pressure), span = map.mu_2 - map.mu_s, drag = span / unit;
         const auto above = mu > map.mu_s;
         const Lanes least = inertia * seed * unit;
         const Lanes c = choose(above & (carried < least), least, carried);

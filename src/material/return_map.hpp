@@ -47,9 +47,10 @@ template <class Number> struct ReturnMapOf {
         return 2.0 * h / (b + root(where(discriminant > 0.0, discriminant)));
     }
 
-    // mu(I) at the shear rate 2 |gamma|, 1/s.
-    GP_INLINE Number friction(const Number &rate, const Number &pressure) const {
-        return rate > 0 ? mu_s + (mu_2 - mu_s) * rate / (rate + rate_factor * root(pressure)) : mu_s;
+    // 1/s, the shear rate 2 |gamma| half way from mu_s to mu_2; and mu(I) by that and a rate.
+    GP_INLINE Number half_rate(const Number &pressure) const { return rate_factor * root(pressure); }
+    GP_INLINE Number friction(const Number &rate, const Number &half) const {
+        return rate > 0 ? mu_s + (mu_2 - mu_s) * rate / (rate + half) : mu_s;
     }
 
     // Is it yielding? What returned to mu_s p, as all that yields where mu_2 = mu_s, is there but for rounding.

@@ -66,7 +66,7 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
     }
 }
 
-template <bool Penalty> GP_INLINE void force_clusters(const View &v, int64_t begin, int64_t end) {
+template <bool Penalty> void force_clusters(const View &v, int64_t begin, int64_t end) {
     for (int64_t c = begin; c < end; ++c) {
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
         const LanePlaces places(first, last);
@@ -80,14 +80,6 @@ template <bool Penalty> GP_INLINE void force_clusters(const View &v, int64_t beg
             v.fy[i] = force.y[i - first];
         }
     }
-}
-
-void plain_clusters(const View &v, int64_t begin, int64_t end) {
-    force_clusters<false>(v, begin, end);
-}
-
-void penalty_clusters(const View &v, int64_t begin, int64_t end) {
-    force_clusters<true>(v, begin, end);
 }
 
 // Sums over the ghosts that the particles of a group of contacts see.
@@ -194,7 +186,7 @@ void force(World &world) {
                     p.stressed.data(), p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(),
                     1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data()};
     const bool in_reach = walls.in_reach();
-    const auto clusters = c.penalty > 0 ? penalty_clusters : plain_clusters;
+    const auto clusters = c.penalty > 0 ? force_clusters<true> : force_clusters<false>;
     for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         const int32_t *of_block = world.clusters.cluster_of_block.data();
         clusters(view, of_block[block], of_block[block + 1]);

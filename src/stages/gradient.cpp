@@ -151,7 +151,7 @@ template <bool Flows, class Exchange> GP_INLINE void cluster_gradient(const View
     }
 }
 
-template <class Exchange> GP_INLINE void gradient_of_clusters(const View &v, int64_t begin, int64_t end) {
+template <class Exchange> void gradient_of_clusters(const View &v, int64_t begin, int64_t end) {
     for (int64_t c = begin; c < end; ++c) {
         double flows = 0;
         for (int64_t i = v.clusters.first[c]; i < v.clusters.first[c + 1]; ++i)
@@ -163,36 +163,13 @@ template <class Exchange> GP_INLINE void gradient_of_clusters(const View &v, int
     }
 }
 
-void plain_clusters(const View &v, int64_t begin, int64_t end) {
-    gradient_of_clusters<NoExchange>(v, begin, end);
-}
-
-void exchanging_clusters(const View &v, int64_t begin, int64_t end) {
-    gradient_of_clusters<Exchange<true>>(v, begin, end);
-}
-
-void exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
-    gradient_of_clusters<Exchange<false>>(v, begin, end);
-}
-
-void fluid_clusters(const View &v, int64_t begin, int64_t end) {
-    gradient_of_clusters<AndFluidity<NoExchange>>(v, begin, end);
-}
-
-void fluid_exchanging_clusters(const View &v, int64_t begin, int64_t end) {
-    gradient_of_clusters<AndFluidity<Exchange<true>>>(v, begin, end);
-}
-
-void fluid_exchanging_clusters_of_densities(const View &v, int64_t begin, int64_t end) {
-    gradient_of_clusters<AndFluidity<Exchange<false>>>(v, begin, end);
-}
-
 using ClusterLoop = void (*)(const View &, int64_t, int64_t);
 
 ClusterLoop exchanging_loop(bool one_density, bool fluid) {
     if (fluid)
-        return one_density ? fluid_exchanging_clusters : fluid_exchanging_clusters_of_densities;
-    return one_density ? exchanging_clusters : exchanging_clusters_of_densities;
+        return one_density ? gradient_of_clusters<AndFluidity<Exchange<true>>>
+                           : gradient_of_clusters<AndFluidity<Exchange<false>>>;
+    return one_density ? gradient_of_clusters<Exchange<true>> : gradient_of_clusters<Exchange<false>>;
 }
 
 View view_of(World &world, const ExchangeView &exchange) {
@@ -227,10 +204,6 @@ View view_of(World &world, const ExchangeView &exchange) {
             exchange};
 }
 
-} // namespace
-
-namespace {
-
 void run(World &world, const ExchangeView &exchange, ClusterLoop clusters) {
     Particles &p = world.particles;
     hand_over(p.cyx, p.crowding);
@@ -238,9 +211,7 @@ void run(World &world, const ExchangeView &exchange, ClusterLoop clusters) {
         hand_over(p.cyy, p.carried);
     const View view = view_of(world, exchange);
     for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
-    hand_over(p.flowing, p.ax);
-    if (p.ay.empty())
-        hand_over(p.bearing.empty() ? p.bearing_flow : p.bearing, p.ay);
+    p.give_back_accelerations();
 }
 
 } // namespace
@@ -249,7 +220,8 @@ void gradient(World &world) {
     ExchangeView exchange{};
     if (world.constants.fluid)
         exchange.fluidity = prepare_fluidity(world);
-    run(world, exchange, world.constants.fluid ? fluid_clusters : plain_clusters);
+    run(world, exchange,
+        world.constants.fluid ? gradient_of_clusters<AndFluidity<NoExchange>> : gradient_of_clusters<NoExchange>);
 }
 
 void gradient_and_exchange(World &world) {

@@ -64,7 +64,7 @@ GP_INLINE Lanes stiffness_of_creep(const Lanes &pressure, const Lanes &fluidity,
 }
 
 template <bool Penalty, bool Fluid>
-GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
+void stress_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
     Particles &p = world.particles;
     const double dt = world.clock.dt;
     const double half_penalty = 0.5 * world.constants.penalty, stiffer = world.constants.elastic_penalty;
@@ -171,29 +171,13 @@ GP_INLINE void stress_rows(World &world, bool one_material, int64_t begin, int64
     sums = {sum_of(plastic), sum_of(internal), sum_of(damped)};
 }
 
-void plain_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<false, false>(world, one_material, begin, end, sums);
-}
-
-void penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<true, false>(world, one_material, begin, end, sums);
-}
-
-void fluid_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<false, true>(world, one_material, begin, end, sums);
-}
-
-void fluid_penalty_rows(World &world, bool one_material, int64_t begin, int64_t end, StressSums &sums) {
-    stress_rows<true, true>(world, one_material, begin, end, sums);
-}
-
 } // namespace
 
 void stress(World &world) {
     Particles &p = world.particles;
     const bool penalty = world.constants.penalty > 0;
-    const auto rows =
-        world.constants.fluid ? (penalty ? fluid_penalty_rows : fluid_rows) : (penalty ? penalty_rows : plain_rows);
+    const auto rows = world.constants.fluid ? (penalty ? stress_rows<true, true> : stress_rows<false, true>)
+                                            : (penalty ? stress_rows<true, false> : stress_rows<false, false>);
     const std::vector<int32_t> &materials = world.constants.body_material;
     const bool one_material =
         std::all_of(materials.begin(), materials.end(), [&](int32_t material) { return material == materials[0]; });

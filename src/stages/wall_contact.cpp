@@ -26,8 +26,8 @@ Vector place_over(const World &world, const Contact &contact) {
 double friction_of_blow(const World &world, const Contact &contact, double approach, const SurfaceRate &rate,
                         double slip) {
     const double mass = world.material_of(contact.particle).density * world.constants.spacing; // kg/m2
-    const double material =
-        friction_left(world.map_of(contact.particle), rate, slip, approach, mass * approach / world.clock.dt);
+    const ReturnMap &law = world.map_of(contact.particle);
+    const double material = friction_left(law, law.half_rate(mass * approach / world.clock.dt), rate, slip, approach);
     return wall_friction_bound(*world.walls.facets[contact.facet].spec, material);
 }
 

@@ -102,7 +102,7 @@ template <bool Fluid> void brake_contacts(World &world) {
         const double once = normal * world.clock.dt / world.material_of(i).density; // m/s, of friction 1
         const ReturnMap &law = world.map_of(i);
         const SurfaceRate rate = surface_rate(world, contact, direction);
-        const double half = law.rate_factor * root(pressure);
+        const double half = law.half_rate(pressure);
         const RoughShare share(world, contact);
         const auto ratio_of = [&](double mu) { return rough ? share.of(mu) : wall_friction_bound(*facet.spec, mu); };
         const bool fluid = Fluid && world.is_fluid(i) && p.pressure[i] > 0;
@@ -114,8 +114,8 @@ template <bool Fluid> void brake_contacts(World &world) {
         double mu = law.mu_s;
         for (int pass = 0; pass < 2; ++pass) {
             const double per_mu = once * ratio_of(mu) / std::max(mu, 1e-300);
-            mu = fluid ? friction_left(law, between, mean_rate, std::abs(slip), per_mu)
-                       : friction_left_by(law, half, rate, std::abs(slip), per_mu);
+            mu = fluid ? fluid_friction_left(law, between, mean_rate, std::abs(slip), per_mu)
+                       : friction_left(law, half, rate, std::abs(slip), per_mu);
         }
         const double stop = std::min(std::abs(slip), ratio_of(mu) * once);
         if (stop <= 0)

@@ -23,27 +23,22 @@ struct SurfaceRate {
 // root of
 //   rate = slope (slip - per_mu mu(rate)) + inside.
 // By the rate before the step large grains, which go from mu_s to mu_2 with the least motion, were held and let go by turns.
-// half: the rate of half way from mu_s to mu_2 under the particle's pressure.
-inline double friction_left_by(const ReturnMap &law, double half, const SurfaceRate &rate, double slip, double per_mu) {
+// half: of the material under the particle's pressure (ReturnMap::half_rate).
+inline double friction_left(const ReturnMap &law, double half, const SurfaceRate &rate, double slip, double per_mu) {
     const double free = rate.slope * slip + rate.inside, held = rate.slope * per_mu;
     const double c = half * (held * law.mu_s - free);
     if (c >= 0) // mu_s stops it
         return law.mu_s;
     const double b = half - free + held * law.mu_2;
     const double discriminant = root(b * b - 4 * c);
-    const double left = b > 0 ? -2 * c / (b + discriminant) : 0.5 * (discriminant - b);
-    return left > 0 ? law.mu_s + (law.mu_2 - law.mu_s) * left / (left + half) : law.mu_s;
-}
-inline double friction_left(const ReturnMap &law, const SurfaceRate &rate, double slip, double per_mu,
-                            double pressure) {
-    return friction_left_by(law, law.rate_factor * root(pressure), rate, slip, per_mu);
+    return law.friction(b > 0 ? -2 * c / (b + discriminant) : 0.5 * (discriminant - b), half);
 }
 
 // The same with the granular fluidity: of uniform shear stress between plate and particle it is the mean rate over the mean
 // fluidity there, up to mu_2; where that is 0, all slip is held. (By the rate at the surface over the fluidity of each particle,
 // which is less further in, a slow plate dragged with 4 % too much; with the fluidity of the first row for all, it slipped.)
-inline double friction_left(const ReturnMap &law, double fluidity, const SurfaceRate &rate, double slip,
-                            double per_mu) {
+inline double fluid_friction_left(const ReturnMap &law, double fluidity, const SurfaceRate &rate, double slip,
+                                  double per_mu) {
     const double mu = (rate.slope * slip + rate.inside) / (fluidity + rate.slope * per_mu);
     return std::clamp(mu, 0.0, law.mu_2);
 }
