@@ -194,7 +194,7 @@ def test_steps_run_without_the_gil(sim):
     thread = threading.Thread(target=count)
     thread.start()
     before = counted[0]
-    sim.step(300)
+    sim.step(3000)  # some 50 ms; in 300, faster than they were, the other thread had 67 turns
     progress = counted[0] - before
     stop.set()
     thread.join()
