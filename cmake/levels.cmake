@@ -46,27 +46,34 @@ elseif(NOT GRANPERI_LEVEL STREQUAL "one")
 endif()
 
 target_compile_options(granperi_objects PRIVATE ${GRANPERI_MARCH})
+target_compile_options(granperi_one_process PRIVATE ${GRANPERI_MARCH})
 if(NOT GRANPERI_LEVELS)
-  set(GRANPERI_ENGINE $<TARGET_OBJECTS:granperi_objects>)
+  set(GRANPERI_ENGINE $<TARGET_OBJECTS:granperi_objects> $<TARGET_OBJECTS:granperi_one_process>)
   return()
 endif()
 
-# One level of the engine as one object with one name.
-function(granperi_make_level level objects)
-  set(table granperi_level_${level})
-  target_sources(${objects} PRIVATE src/levels/table.cpp)
-  target_compile_definitions(${objects} PRIVATE GP_LEVEL_TABLE=${table} "GP_LEVELS=\"x86-64 or x86-64-v3\"")
-  # Names can be made local in machine code alone, and not if they are for the whole process (STB_GNU_UNIQUE).
+# Names can be made local in machine code alone, and not if they are for the whole process (STB_GNU_UNIQUE).
+function(granperi_compile_for_level objects)
+  target_compile_definitions(${objects} PRIVATE "GP_LEVELS=\"x86-64 or x86-64-v3\"")
   target_compile_options(${objects} PRIVATE -fno-lto $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   set_target_properties(${objects} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
-  set(whole ${PROJECT_BINARY_DIR}/${table}.o)
+endfunction()
+
+# One level of the engine as one object with one name, in the list `engine`: of its objects and those of `rest`, which has the table
+# of its functions.
+function(granperi_make_level level objects rest engine)
+  set(table granperi_level_${level})
+  target_sources(${rest} PRIVATE ${PROJECT_SOURCE_DIR}/src/levels/table.cpp)
+  target_compile_definitions(${rest} PRIVATE GP_LEVEL_TABLE=${table})
+  granperi_compile_for_level(${rest})
+  set(whole ${PROJECT_BINARY_DIR}/${rest}_level.o)
   add_custom_command(
     OUTPUT ${whole}
-    COMMAND ${relink} -r --force-group-allocation -o ${whole} $<TARGET_OBJECTS:${objects}>
+    COMMAND ${relink} -r --force-group-allocation -o ${whole} $<TARGET_OBJECTS:${objects}> $<TARGET_OBJECTS:${rest}>
     COMMAND ${CMAKE_OBJCOPY} --keep-global-symbol=${table} ${whole}
-    DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
-    COMMENT "Making the names of ${table} local" COMMAND_EXPAND_LISTS VERBATIM)
-  set(GRANPERI_ENGINE ${GRANPERI_ENGINE} ${whole} PARENT_SCOPE)
+    DEPENDS ${objects} ${rest} $<TARGET_OBJECTS:${objects}> $<TARGET_OBJECTS:${rest}>
+    COMMENT "Making the names of ${rest} local" COMMAND_EXPAND_LISTS VERBATIM)
+  set(${engine} ${${engine}} ${whole} PARENT_SCOPE)
 endfunction()
 
 add_library(granperi_objects_v3 OBJECT ${GRANPERI_SOURCES})
@@ -74,6 +81,11 @@ granperi_compile_engine(granperi_objects_v3)
 target_compile_options(granperi_objects_v3 PRIVATE -march=x86-64-v3)
 target_sources(granperi_interface PRIVATE src/levels/dispatch.cpp)
 set(GRANPERI_ENGINE "")
-granperi_make_level(base granperi_objects)
-granperi_make_level(v3 granperi_objects_v3)
+add_library(granperi_one_process_v3 OBJECT src/without_mpi.cpp)
+granperi_compile_engine(granperi_one_process_v3)
+target_compile_options(granperi_one_process_v3 PRIVATE -march=x86-64-v3)
+granperi_compile_for_level(granperi_objects)
+granperi_compile_for_level(granperi_objects_v3)
+granperi_make_level(base granperi_objects granperi_one_process GRANPERI_ENGINE)
+granperi_make_level(v3 granperi_objects_v3 granperi_one_process_v3 GRANPERI_ENGINE)
 add_custom_target(granperi_levels DEPENDS ${GRANPERI_ENGINE}) # one rule for two libraries

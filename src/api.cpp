@@ -1,4 +1,4 @@
-// The only extern "C" file: each call guards against exceptions, checks its pointers, and delegates.
+// The extern "C" file of gp.h: each call guards against exceptions, checks its pointers, and delegates.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,51 +12,13 @@
 #include "error.hpp"
 #include "fields.hpp"
 #include "granperi/gp.h"
+#include "handle.hpp"
 #include "io/checkpoint.hpp"
-#include "io/output.hpp"
 #include "level.hpp"
-#include "sim.hpp"
-
-struct gp_sim {
-    explicit gp_sim(const gp_config &config) : sim(config) {}
-
-    gp::Sim sim;
-    std::unique_ptr<gp::io::Output> output;
-    gp::io::OutputPosition left_off; // of a checkpoint that this was loaded from, until an output is open again
-
-    // What views point to, and the last measured state; good while the epoch is the same.
-    gp::Field<double> derived[15];
-    gp_state state{};
-    uint32_t state_parts = 0;
-    uint64_t state_epoch = std::numeric_limits<uint64_t>::max();
-};
 
 namespace {
 
 using namespace gp;
-
-// Runs body, with the host's environment put aside, and turns what it throws into a status and a text.
-template <class Body> gp_status guard(const Body &body) noexcept {
-    const Entry entry;
-    try {
-        return body();
-    } catch (const Error &error) {
-        set_last_error(error.what());
-        return error.status();
-    } catch (const std::bad_alloc &) {
-        set_last_error("out of memory");
-        return GP_E_MEMORY;
-    } catch (const std::length_error &) {
-        set_last_error("out of memory");
-        return GP_E_MEMORY;
-    } catch (const std::exception &error) {
-        set_last_error(error.what());
-        return GP_E_INTERNAL;
-    } catch (...) {
-        set_last_error("unknown exception");
-        return GP_E_INTERNAL;
-    }
-}
 
 void require_simulation(const gp_sim *handle) {
     if (!handle)
@@ -76,26 +38,6 @@ Sim &readable(gp_sim *handle) {
     require_simulation(handle);
     handle->sim.prepare();
     return handle->sim;
-}
-
-// The struct that the caller means: an older, shorter one is completed with defaults; a newer one is understood as long
-// as what this version does not know is zero.
-template <class T> T complete(const T *given, const T &defaults, const char *name) {
-    require_pointer(name, given);
-    uint32_t size;
-    std::memcpy(&size, given, sizeof size);
-    if (size < 2 * sizeof(uint32_t) || size > 65536) // an uninitialised one must not be read past its end
-        throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected the size that %s_init sets", name, size, name);
-    T whole = defaults;
-    std::memcpy(static_cast<void *>(&whole), given, std::min<std::size_t>(size, sizeof(T)));
-    whole.struct_size = sizeof(T);
-    const auto *bytes = reinterpret_cast<const unsigned char *>(given);
-    for (std::size_t k = sizeof(T); k < size; ++k)
-        if (bytes[k] != 0)
-            throw make_error(GP_E_VERSION,
-                             "%s.struct_size = %u: sets a field that this version (%zu bytes) does not know", name,
-                             size, sizeof(T));
-    return whole;
 }
 
 template <class T> gp_status initialise(T *target, std::size_t size, const T &defaults, const char *name) {
@@ -121,16 +63,35 @@ template <class T> gp_status hand_out(T *target, T filled, const char *name) {
     return GP_OK;
 }
 
+// Looks at the whole of a world that several processes may have parts of: body runs on the first of them.
+template <class Body> void on_whole(Sim &sim, const Body &body) {
+    const World *whole = sim.whole();
+    if (sim.crossing())
+        run_on_first(*sim.crossing(), [&] { body(*whole); });
+    else
+        body(*whole);
+}
+
+// What has come of that goes to all.
+template <class T> void tell_all(const Sim &sim, T *values, int64_t count) {
+    if (sim.crossing())
+        sim.crossing()->broadcast(values, count * static_cast<int64_t>(sizeof(T)), 0);
+}
+
 // Measures what has not been measured since the last step.
 gp_status hand_out_state(gp_sim *sim, uint32_t parts, gp_state *target) {
     Sim &s = readable(sim);
-    if (sim->state_epoch != s.epoch()) {
-        sim->state = measure_sums(s.world());
-        sim->state_parts = 0;
+    const bool fresh = sim->state_epoch != s.epoch();
+    if (fresh || (parts & ~sim->state_parts)) {
+        on_whole(s, [&](const World &world) {
+            if (fresh)
+                sim->state = measure_sums(world);
+            measure_parts(world, fresh ? parts : parts & ~sim->state_parts, sim->state);
+        });
+        tell_all(s, &sim->state, 1);
+        sim->state_parts = fresh ? parts : sim->state_parts | parts;
         sim->state_epoch = s.epoch();
     }
-    measure_parts(s.world(), parts & ~sim->state_parts, sim->state);
-    sim->state_parts |= parts;
     sim->state.wall_seconds = s.wall_seconds();
     gp_state state = sim->state;
     leave_out(GP_STATE_ALL & ~parts, state);
@@ -149,6 +110,23 @@ void require_stations(int64_t n, const char *in_name, const double *in, const ch
             throw make_error(GP_E_ARGUMENT, "%s[%lld] = %g: expected a finite number", in_name,
                              static_cast<long long>(k), in[k]);
 }
+
+// The sink of a process among several: all know when a frame is due, and the first one writes it.
+class SharedFrames : public FrameSink {
+public:
+    SharedFrames(Sim &sim, io::Output *output, const io::FrameTimes &times) : sim_(sim), output_(output), times_(times) {}
+    void step_done(const World &part) override {
+        if (!times_.due(part))
+            return;
+        times_.pass(part);
+        on_whole(sim_, [&](const World &world) { output_->step_done(world); });
+    }
+
+private:
+    Sim &sim_;
+    io::Output *output_;
+    io::FrameTimes times_;
+};
 
 void put_id(int32_t *id, int32_t value) {
     if (id)
@@ -190,6 +168,8 @@ int32_t gp_has_feature(const char *name) {
     if (std::strcmp(name, "openmp") == 0)
         return 1;
 #endif
+    if (std::strcmp(name, "mpi") == 0)
+        return has_mpi ? 1 : 0;
     return std::strcmp(name, level_name) == 0;
 }
 
@@ -358,14 +338,18 @@ gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
     return guard([&] {
         if (field == 0 || (field & (field - 1)) || (field & ~GP_FIELD_ALL))
             throw make_error(GP_E_ARGUMENT, "field = 0x%x: expected exactly one of the bits GP_FIELD_...", field);
-        const World &world = readable(sim).world();
-        if (n != world.particles.count)
-            throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld",
-                             static_cast<long long>(n), static_cast<long long>(world.particles.count));
-        if (n > 0) {
-            require_pointer("dst", dst);
-            copy_field_by_id(world, field, dst);
-        }
+        Sim &s = readable(sim);
+        if (s.crossing() && s.crossing()->rank() > 0 && n != 0)
+            throw make_error(GP_E_ARGUMENT, "n = %lld: expected 0 but on the first process", static_cast<long long>(n));
+        on_whole(s, [&](const World &world) {
+            if (n != world.particles.count)
+                throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld",
+                                 static_cast<long long>(n), static_cast<long long>(world.particles.count));
+            if (n > 0) {
+                require_pointer("dst", dst);
+                copy_field_by_id(world, field, dst);
+            }
+        });
         return GP_OK;
     });
 }
@@ -408,11 +392,14 @@ gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step) {
 gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height) {
     return guard([&] {
         require_stations(n, "x", x, "height", height);
-        const World &world = readable(sim).world();
-        const Surface surface(world, connected_deposit(world));
-        for (int64_t k = 0; k < n; ++k)
-            if (!surface.height(x[k], height[k]))
-                height[k] = 0;
+        Sim &s = readable(sim);
+        on_whole(s, [&](const World &world) {
+            const Surface surface(world, connected_deposit(world));
+            for (int64_t k = 0; k < n; ++k)
+                if (!surface.height(x[k], height[k]))
+                    height[k] = 0;
+        });
+        tell_all(s, height, n);
         return GP_OK;
     });
 }
@@ -426,9 +413,12 @@ gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, 
         if (left == right)
             throw make_error(GP_E_ARGUMENT, "right = %d: expected another column than left", right);
         require_stations(n, "y", y, "x", x);
-        for (int64_t k = 0; k < n; ++k)
-            if (!interface_at(s.world(), left, right, y[k], x[k]))
-                x[k] = std::numeric_limits<double>::quiet_NaN();
+        on_whole(s, [&](const World &world) {
+            for (int64_t k = 0; k < n; ++k)
+                if (!interface_at(world, left, right, y[k], x[k]))
+                    x[k] = std::numeric_limits<double>::quiet_NaN();
+        });
+        tell_all(s, x, n);
         return GP_OK;
     });
 }
@@ -476,9 +466,19 @@ gp_status gp_save(gp_sim *sim, const char *path) {
     return guard([&]() -> gp_status {
         require_simulation(sim);
         require_pointer("path", path);
-        if (sim->sim.progress().started)
-            sim->sim.prepare();
-        io::save_checkpoint(path, sim->sim, sim->output ? sim->output->position(sim->sim.world()) : sim->left_off);
+        Sim &s = sim->sim;
+        const auto save = [&](const World *world) {
+            io::save_checkpoint(path, s, world, sim->output ? sim->output->position(*world) : sim->left_off);
+        };
+        if (!s.progress().started) {
+            if (s.crossing())
+                run_on_first(*s.crossing(), [&] { save(nullptr); });
+            else
+                save(nullptr);
+            return GP_OK;
+        }
+        s.prepare();
+        on_whole(s, [&](const World &world) { save(&world); });
         return GP_OK;
     });
 }
@@ -506,12 +506,22 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
     return guard([&] {
         Sim &s = outside_callback(sim, "gp_output_open");
         require_pointer("path", path);
-        if (sim->output)
+        if (s.sink)
             throw make_error(GP_E_STATE, "gp_output_open: an output is open already; gp_output_close it first");
         const gp_output options = output ? complete(output, io::default_output(), "gp_output") : io::default_output();
         s.prepare();
-        sim->output = std::make_unique<io::Output>(path, options, s.world(), sim->left_off);
+        on_whole(s, [&](const World &world) {
+            sim->output = std::make_unique<io::Output>(path, options, world, sim->left_off);
+        });
         s.sink = sim->output.get();
+        if (s.crossing()) {
+            io::FrameTimes times;
+            if (sim->output)
+                times = sim->output->times();
+            tell_all(s, &times, 1);
+            sim->frames = std::make_unique<SharedFrames>(s, sim->output.get(), times);
+            s.sink = sim->frames.get();
+        }
         sim->left_off = {};
         return GP_OK;
     });
@@ -520,9 +530,9 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
 gp_status gp_output_write(gp_sim *sim) {
     return guard([&] {
         require_simulation(sim);
-        if (!sim->output)
+        if (!sim->sim.sink)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
-        sim->output->write(readable(sim).world());
+        on_whole(readable(sim), [&](const World &world) { sim->output->write(world); });
         return GP_OK;
     });
 }
@@ -530,11 +540,14 @@ gp_status gp_output_write(gp_sim *sim) {
 gp_status gp_output_close(gp_sim *sim) {
     return guard([&] {
         Sim &s = outside_callback(sim, "gp_output_close");
-        if (!sim->output)
+        if (!s.sink)
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");
         s.sink = nullptr;
         const std::unique_ptr<io::Output> closing = std::move(sim->output);
-        closing->close();
+        if (s.crossing())
+            run_on_first(*s.crossing(), [&] { closing->close(); });
+        else
+            closing->close();
         return GP_OK;
     });
 }

@@ -26,6 +26,18 @@ template <class Body> void for_each_seen_block(const World &world, const Body &b
         for_each_block(world.threads, world.particles.count, body);
 }
 
+// Makes fields of all that is seen: make(begin, end). They follow from what images have, too, so that those of other processes'
+// particles need no message; others are copied.
+template <class Make>
+void make_for_neighbors(World &world, std::initializer_list<Field<double> *> fields, const Make &make) {
+    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) { make(begin, end); });
+    const int64_t first = world.particles.count;
+    if (world.crossing)
+        make(first, first + world.images.count);
+    else if (world.images.count > 0)
+        world.images.copy(fields);
+}
+
 // Calls body(begin, end) for runs of the ghosts that what is awake sees: few at a time.
 template <class Body> void for_each_awake_ghost_run(const World &world, const Body &body) {
     const std::vector<IndexRun> &runs = world.sleep.ghosts;

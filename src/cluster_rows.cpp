@@ -13,19 +13,6 @@ namespace gp {
 
 namespace {
 
-// Calls body(begin, end, side) for the runs of candidates about a cluster: of particles (side -1) and of those whose images
-// on a side of the period count.
-template <class Body> void for_each_run(const CellGrid &grid, const Images &images, const Box &box, const Body &body) {
-    grid.for_each_run(box, [&](int64_t begin, int64_t end) { body(begin, end, -1); });
-    if (images.count == 0)
-        return;
-    for (int side = 0; side < 2; ++side) {
-        const double shift = images.shift(side);
-        grid.for_each_run({box.x_min - shift, box.x_max - shift, box.y_min, box.y_max},
-                          [&](int64_t begin, int64_t end) { body(begin, end, side); });
-    }
-}
-
 constexpr int64_t chunk = 64;
 
 struct LanesAt {
@@ -48,15 +35,15 @@ void test_run(const double *__restrict x, const double *__restrict y, int64_t n,
     }
 }
 
-// One cluster's row: close ones from the beginning of its room on, the others from its end down; then these move up.
+// One cluster's rows while they are found, without branches.
 struct Row {
-    int32_t *close, *others;
+    int32_t *all, *close;
 
     void add(int32_t j, int32_t found) {
+        *all = j;
+        all += found != 0;
         *close = j;
         close += found == 3;
-        others[-1] = j;
-        others -= found == 1;
     }
 };
 
@@ -124,14 +111,15 @@ public:
         ClusterList::Draft &draft = list_.draft;
         draft.index.resize(most);
         draft.seen_by.resize(hidden ? most : 0);
-        list_.start[0] = 0;
+        list_.all.start[0] = list_.close.start[0] = 0;
         for (int64_t block = 0; block < blocks; block += wave) {
             const int64_t end = std::min(blocks, block + wave);
             for_each_block<1>(threads_, end - block,
                               [&](int64_t k, int64_t, int64_t) { draft_block(block, block + k); });
             if (unwalkable_)
                 throw make_error(GP_E_DIVERGED, "more than %d particles within %g m of one", longest_step, radius_);
-            make_place(block, end);
+            make_place(list_.all, block, end);
+            make_place(list_.close, block, end);
             for_each_block<1>(threads_, end - block,
                               [&](int64_t k, int64_t, int64_t) { place_block(block, block + k); });
         }
@@ -146,7 +134,8 @@ private:
         return box_of(p_, list_.first[cluster], list_.first[cluster + 1], radius_);
     }
 
-    // Of each block: all candidates of its clusters, and the length of each row.
+    // Of each block: all candidates of its clusters, twice, and the length of each row. One place more of each: what is not
+    // within reach is written, too, before it is told.
     void measure_room() {
         Field<int64_t> &room = list_.draft.room;
         const int64_t blocks = block_count(p_.count);
@@ -155,61 +144,63 @@ private:
         for_each_block<1>(threads_, blocks, [&](int64_t block, int64_t, int64_t) {
             int64_t most = 0;
             for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
-                ++most;
-                for_each_run(grid_, images_, box_of_reach(c),
-                             [&](int64_t from, int64_t to, int) { most += to - from; });
+                most += 4 + 2 * candidates_of(c);
             }
             room[block + 1] = most;
         });
         std::partial_sum(room.begin(), room.end(), room.begin());
     }
 
+    int64_t candidates_of(int64_t cluster) const {
+        int64_t count = 0;
+        for_each_run_in(grid_, images_, box_of_reach(cluster), [&](int64_t from, int64_t to) { count += to - from; });
+        return count;
+    }
+
     // The rows of a block, each behind its length; and how many steps they take.
     void draft_block(int64_t first_block, int64_t block) {
         ClusterList::Draft &draft = list_.draft;
         int32_t *at = draft.index.data() + room_of(first_block, block);
-        int32_t *const end = draft.index.data() + room_of(first_block, block + 1);
         for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
-            const int64_t first = list_.first[c], last = list_.first[c + 1];
             const LanesAt lanes = lanes_of(c);
-            int32_t *const begin = at + 1;
-            Row row{begin, end};
+            int32_t *const all = at + 1, *const close = all + candidates_of(c) + 2;
+            Row row{all, close};
             find_row(c, lanes, row);
-            const int64_t close = row.close - begin, n = close + (end - row.others);
-            if (row.close < row.others) // not where the room is full, or nothing at all
-                std::copy(row.others, end, row.close);
+            const int64_t n = row.all - all, n_close = row.close - close;
             if (!barriers_.segments.empty())
-                list_.partly_seen[c] =
-                    look_through(p_, barriers_, tolerance_, static_cast<int32_t>(first), static_cast<int32_t>(last),
-                                 begin, n, draft.seen_by.data() + (begin - draft.index.data()));
-            *at = static_cast<int32_t>(n);
-            int64_t steps = n, close_steps = close;
-            if (has_long_way(begin, n, static_cast<int32_t>(first))) {
-                steps = close_steps = 0;
-                walk(begin, n, first, lanes, [&](int32_t, int64_t k) {
-                    ++steps;
-                    if (k >= 0 && k < close)
-                        close_steps = steps;
-                });
-            }
-            list_.start[c + 1] = steps;
-            list_.close[c] = static_cast<int32_t>(close_steps);
-            at = begin + n;
+                list_.partly_seen[c] = look(c, all, n);
+            if (!list_.partly_seen.empty() && list_.partly_seen[c])
+                look(c, close, n_close);
+            all[-1] = static_cast<int32_t>(n);
+            close[-1] = static_cast<int32_t>(n_close);
+            list_.all.start[c + 1] = steps_of(c, lanes, all, n);
+            list_.close.start[c + 1] = steps_of(c, lanes, close, n_close);
+            std::copy_n(close - 1, n_close + 1, all + n); // right behind
+            if (!list_.partly_seen.empty() && list_.partly_seen[c])
+                std::copy_n(seen_by_of(close) - 1, n_close + 1, seen_by_of(all) + n);
+            at = all + n + 1 + n_close;
         }
+    }
+
+    uint8_t *seen_by_of(const int32_t *row) { return list_.draft.seen_by.data() + (row - list_.draft.index.data()); }
+    bool look(int64_t cluster, const int32_t *row, int64_t n) {
+        return look_through(p_, barriers_, tolerance_, list_.first[cluster], list_.first[cluster + 1], row, n,
+                            seen_by_of(row));
+    }
+
+    int64_t steps_of(int64_t cluster, const LanesAt &lanes, const int32_t *row, int64_t n) {
+        const int32_t first = list_.first[cluster];
+        if (!has_long_way(row, n, first))
+            return n;
+        int64_t steps = 0;
+        walk(row, n, first, lanes, [&](int32_t, int64_t) { ++steps; });
+        return steps;
     }
 
     void find_row(int64_t cluster, const LanesAt &lanes, Row &row) const {
         int32_t found[chunk];
         const double radius2 = radius_ * radius_;
-        for_each_run(grid_, images_, box_of_reach(cluster), [&](int64_t from, int64_t to, int side) {
-            if (side >= 0) {
-                for (int64_t source = from; source < to; ++source)
-                    if (const int32_t j = images_.image_of(source, side); j >= 0) {
-                        test_run(p_.x.data() + j, p_.y.data() + j, 1, lanes, radius2, close2_, found);
-                        row.add(j, found[0]);
-                    }
-                return;
-            }
+        for_each_run_in(grid_, images_, box_of_reach(cluster), [&](int64_t from, int64_t to) {
             for (int64_t j = from; j < to; j += chunk) {
                 const int64_t n = std::min(chunk, to - j);
                 test_run(p_.x.data() + j, p_.y.data() + j, n, lanes, radius2, close2_, found);
@@ -254,47 +245,49 @@ private:
     }
 
     // Where the rows of some blocks begin; makes the list long enough.
-    void make_place(int64_t begin, int64_t end) {
+    void make_place(ClusterRows &rows, int64_t begin, int64_t end) {
         const int64_t first = list_.cluster_of_block[begin], last = list_.cluster_of_block[end];
         for (int64_t c = first; c < last; ++c)
-            list_.start[c + 1] += list_.start[c];
-        const int64_t needed = list_.start[last];
-        if (static_cast<int64_t>(list_.step.size()) < needed) {
+            rows.start[c + 1] += rows.start[c];
+        const int64_t needed = rows.start[last];
+        if (static_cast<int64_t>(rows.step.size()) < needed) {
             // As if all rows were as long as those so far, and some more, so that later lists of about this size fit.
             const double all =
                 static_cast<double>(needed) / static_cast<double>(last) * static_cast<double>(list_.count());
-            list_.step.reserve(static_cast<std::size_t>(1.04 * all));
-            list_.step.resize(list_.step.capacity());
+            rows.step.reserve(static_cast<std::size_t>(1.04 * all));
+            rows.step.resize(rows.step.capacity());
         }
         if (!barriers_.segments.empty())
-            list_.seen_by.resize(list_.step.size());
+            rows.seen_by.resize(rows.step.size());
     }
 
     void place_block(int64_t first_block, int64_t block) {
-        const ClusterList::Draft &draft = list_.draft;
-        const int32_t *at = draft.index.data() + room_of(first_block, block);
-        for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
-            const int64_t n = *at;
-            const int32_t *const row = at + 1;
-            const bool partly = !list_.partly_seen.empty() && list_.partly_seen[c];
-            int16_t *const steps = list_.step.data() + list_.start[c];
-            uint8_t *const seen_by = partly ? list_.seen_by.data() + list_.start[c] : nullptr;
-            const uint8_t *const drafted = partly ? draft.seen_by.data() + (row - draft.index.data()) : nullptr;
-            if (list_.start[c + 1] - list_.start[c] == n) { // no long ways
-                for (int64_t k = 0; k < n; ++k)
-                    steps[k] = static_cast<int16_t>(row[k] - (k > 0 ? row[k - 1] : list_.first[c]));
-                if (partly)
-                    std::copy_n(drafted, n, seen_by);
-            } else {
-                int64_t entry = 0;
-                walk(row, n, list_.first[c], lanes_of(c), [&](int32_t step, int64_t k) {
-                    if (partly)
-                        seen_by[entry] = k < 0 ? uint8_t{0} : drafted[k];
-                    steps[entry++] = static_cast<int16_t>(step);
-                });
+        const int32_t *at = list_.draft.index.data() + room_of(first_block, block);
+        for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c)
+            for (ClusterRows *rows : {&list_.all, &list_.close}) {
+                place_row(*rows, c, at + 1, *at);
+                at += 1 + *at;
             }
-            at = row + n;
+    }
+
+    void place_row(ClusterRows &rows, int64_t c, const int32_t *row, int64_t n) {
+        const bool partly = !list_.partly_seen.empty() && list_.partly_seen[c];
+        int16_t *const steps = rows.step.data() + rows.start[c];
+        uint8_t *const seen_by = partly ? rows.seen_by.data() + rows.start[c] : nullptr;
+        const uint8_t *const drafted = partly ? seen_by_of(row) : nullptr;
+        if (rows.start[c + 1] - rows.start[c] == n) { // no long ways
+            for (int64_t k = 0; k < n; ++k)
+                steps[k] = static_cast<int16_t>(row[k] - (k > 0 ? row[k - 1] : list_.first[c]));
+            if (partly)
+                std::copy_n(drafted, n, seen_by);
+            return;
         }
+        int64_t entry = 0;
+        walk(row, n, list_.first[c], lanes_of(c), [&](int32_t step, int64_t k) {
+            if (partly)
+                seen_by[entry] = k < 0 ? uint8_t{0} : drafted[k];
+            steps[entry++] = static_cast<int16_t>(step);
+        });
     }
 
     LanesAt lanes_of(int64_t cluster) const {

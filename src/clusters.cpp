@@ -9,10 +9,12 @@
 namespace gp {
 
 int64_t ClusterList::bytes() const {
-    return static_cast<int64_t>(
-        (first.capacity() + close.capacity() + cluster_of_block.capacity() + draft.index.capacity()) * sizeof(int32_t) +
-        (start.capacity() + draft.room.capacity()) * sizeof(int64_t) + step.capacity() * sizeof(int16_t) +
-        partly_seen.capacity() + seen_by.capacity() + draft.seen_by.capacity());
+    std::size_t total = (first.capacity() + cluster_of_block.capacity() + draft.index.capacity()) * sizeof(int32_t) +
+                        draft.room.capacity() * sizeof(int64_t) + partly_seen.capacity() + draft.seen_by.capacity();
+    for (const ClusterRows *rows : {&all, &close})
+        total += rows->start.capacity() * sizeof(int64_t) + rows->step.capacity() * sizeof(int16_t) +
+                 rows->seen_by.capacity();
+    return static_cast<int64_t>(total);
 }
 
 namespace {
@@ -64,8 +66,8 @@ void find_clusters(const Particles &p, const CellGrid &grid, const Images &image
                    const Barriers &barriers, double tolerance, int threads, ClusterList &list) {
     cut(p, grid, radius, threads, list);
     const std::size_t count = list.first.size() - 1;
-    list.start.resize(count + 1);
-    list.close.resize(count);
+    list.all.start.resize(count + 1);
+    list.close.start.resize(count + 1);
     if (barriers.segments.empty())
         list.partly_seen.clear();
     else

@@ -10,26 +10,32 @@
 
 #include "geometry.hpp"
 #include "neighbors.hpp"
+#include "periodic.hpp"
 #include "segment_cells.hpp"
 
 namespace gp {
 
-struct ClusterList {
-    // Cluster c holds the particles first[c] .. first[c + 1]. Its row, the entries start[c] .. start[c + 1], are the particles and
-    // images that it sees, itself among them; those that may collide with one of it come first, `close` of them.
-    //
-    // A row is walked from first[c] on: step[k] leads from one entry's index to the next one's. A way that no step of 16 bits
-    // goes is gone in several, over places that none of the cluster sees: they add nothing, like all that is out of reach.
-    Field<int32_t> first;
+// The row of cluster c: the entries start[c] .. start[c + 1], particles and images, in the order of their cells (neighbors.hpp).
+//
+// It is walked from the cluster's first particle on: step[k] leads from one entry's index to the next one's. A way that no
+// step of 16 bits goes is gone in several, over places that none of the cluster sees: they add nothing, like all that is out of
+// reach.
+struct ClusterRows {
     Field<int64_t> start;
-    Field<int32_t> close;
     Field<int16_t> step;
+    Field<uint8_t> seen_by; // of partly_seen clusters: which lanes see an entry, bit by bit
+};
+
+struct ClusterList {
+    // Cluster c holds the particles first[c] .. first[c + 1]. It sees `all`, itself among them, and may collide with `close`: two
+    // rows, as a sum over the first has the same order whatever cluster a particle is in. (With the close ones first in one row, as
+    // it was, that depended on who else was in it.)
+    Field<int32_t> first;
+    ClusterRows all, close;
     Field<int32_t>
         cluster_of_block; // the first one of each block of particles; clusters do not reach over a block's end
 
-    // Where plates have material behind them: which lanes see an entry, bit by bit, in the rows of partly_seen clusters.
-    Field<uint8_t> partly_seen;
-    Field<uint8_t> seen_by;
+    Field<uint8_t> partly_seen; // by plates with material behind them; empty: there are none
 
     // Some blocks' rows while they are found: places, and lanes that see them.
     struct Draft {
@@ -38,15 +44,16 @@ struct ClusterList {
         Field<uint8_t> seen_by;
     } draft;
 
-    int64_t count() const { return static_cast<int64_t>(close.size()); }
+    int64_t count() const { return first.empty() ? 0 : static_cast<int64_t>(first.size()) - 1; }
     int64_t bytes() const;
 };
 
-// Calls found(k, j) for the entries k of a row up to `stop`, and their particles or images j.
-template <class Found> void for_each_entry(const ClusterList &list, int64_t cluster, int64_t stop, const Found &found) {
+// Calls found(k, j) for the entries k of a cluster's row, and their particles or images j.
+template <class Found>
+void for_each_entry(const ClusterList &list, const ClusterRows &rows, int64_t cluster, const Found &found) {
     int32_t j = list.first[cluster];
-    for (int64_t k = list.start[cluster]; k < stop; ++k) {
-        j += list.step[k];
+    for (int64_t k = rows.start[cluster]; k < rows.start[cluster + 1]; ++k) {
+        j += rows.step[k];
         found(k, j);
     }
 }
@@ -57,8 +64,8 @@ struct Barriers {
     SegmentCells cells; // of those within the radius of the lists
 };
 
-// Cuts the sorted particles into clusters and finds, for each, the neighbours within `radius` of one of its particles; those
-// within `close_radius` of one come first. Pairs on both sides of one of `barriers` do not
+// Cuts the sorted particles into clusters and finds, for each, the neighbours within `radius` of one of its particles, and
+// those within `close_radius`. Pairs on both sides of one of `barriers` do not
 // see each other.
 void find_clusters(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
                    double close_radius, const Barriers &barriers, double tolerance, int threads, ClusterList &list);
@@ -71,8 +78,8 @@ void find_rows(const Particles &particles, const CellGrid &grid, const Images &i
 // some that are not.
 template <class Found> void for_each_seen(const ClusterList &list, int64_t cluster, int64_t i, const Found &found) {
     const bool partly = !list.partly_seen.empty() && list.partly_seen[cluster];
-    for_each_entry(list, cluster, list.start[cluster + 1], [&](int64_t k, int32_t j) {
-        if (j != i && (!partly || (list.seen_by[k] >> (i - list.first[cluster]) & 1)))
+    for_each_entry(list, list.all, cluster, [&](int64_t k, int32_t j) {
+        if (j != i && (!partly || (list.all.seen_by[k] >> (i - list.first[cluster]) & 1)))
             found(j);
     });
 }

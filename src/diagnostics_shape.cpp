@@ -47,8 +47,8 @@ private:
     std::vector<int32_t> parent_;
 };
 
-// Links the particles of one cluster with those that it sees up to `stop` in its list.
-void link_cluster(const World &world, int64_t cluster, int64_t stop, Sets &sets) {
+// Links the particles of one cluster with those in its row.
+void link_cluster(const World &world, int64_t cluster, const ClusterRows &rows, Sets &sets) {
     const Particles &p = world.particles;
     const ClusterList &list = world.clusters;
     const double link = link_distance * world.constants.spacing;
@@ -57,12 +57,12 @@ void link_cluster(const World &world, int64_t cluster, int64_t stop, Sets &sets)
         const auto i = static_cast<int32_t>(world.particle_listed_at(place));
         const double x = p.x[i], y = p.y[i];
         int32_t root = sets.root_of(i);
-        for_each_entry(list, cluster, stop, [&](int64_t k, int32_t listed) {
+        for_each_entry(list, rows, cluster, [&](int64_t k, int32_t listed) {
             const int64_t near = world.particle_listed_at(listed);
             const auto j = static_cast<int32_t>(world.images.source(near));
             const double dx = p.x[near] - x, dy = p.y[near] - y;
             if (!sets.are_near(j, root) && dx * dx + dy * dy < link * link &&
-                (!partly || (list.seen_by[k] >> (place - list.first[cluster]) & 1)))
+                (!partly || (rows.seen_by[k] >> (place - list.first[cluster]) & 1)))
                 root = sets.unite(root, j);
         });
     }
@@ -76,12 +76,12 @@ std::vector<char> connected_deposit(const World &world) {
     Sets sets(p.count);
     // Those that may collide make one set of nearly all; what is left to link then has an end outside of the largest.
     for (int64_t c = 0; c < clusters.count(); ++c)
-        link_cluster(world, c, clusters.start[c] + clusters.close[c], sets);
+        link_cluster(world, c, clusters.close, sets);
     const int32_t most = sets.largest(p.id);
     for (int64_t c = 0; c < clusters.count(); ++c)
         for (int32_t place = clusters.first[c]; place < clusters.first[c + 1]; ++place)
             if (sets.root_of(static_cast<int32_t>(world.particle_listed_at(place))) != sets.root_of(most)) {
-                link_cluster(world, c, clusters.start[c + 1], sets);
+                link_cluster(world, c, clusters.all, sets);
                 break;
             }
     const int32_t largest = sets.largest(p.id);

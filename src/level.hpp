@@ -17,6 +17,9 @@ constexpr const char *level_name = "x86-64-v2";
 constexpr const char *level_name = "x86-64";
 #endif
 
+// Is this the library for several processes? src/without_mpi.cpp, or src/mpi.
+extern const bool has_mpi;
+
 // GP_E_UNSUPPORTED if the environment variable GRANPERI_LEVEL asks for another one.
 void require_level();
 

@@ -4,68 +4,89 @@
 #include <numeric>
 
 #include "error.hpp"
-#include "parallel.hpp"
 
 namespace gp {
 
-void CellGrid::sort(Particles &particles, double cell_width, double cell_height, int threads) {
-    const int64_t n = particles.count;
-    count_ = n;
-    if (n == 0)
-        return;
-    // Without the images of before, which are in the arrays behind.
-    const auto [x_low, x_high] = std::minmax_element(particles.x.begin(), particles.x.begin() + n);
-    const auto [y_low, y_high] = std::minmax_element(particles.y.begin(), particles.y.begin() + n);
-    box_ = {*x_low, *x_high, *y_low, *y_high};
-    // A box too wide to number its cells gets wider cells: still right, only slower.
-    const double widest = std::max(box_.x_max - box_.x_min, box_.y_max - box_.y_min);
-    inverse_width_ = 1.0 / std::max(cell_width, widest / 1e9);
-    inverse_height_ = 1.0 / std::max(cell_height, widest / 1e9);
+CellFrame::CellFrame(const Box &box, const Period &period, double cell_width, double cell_height) {
+    const double widest = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
+    const double width = std::max(cell_width, widest / 1e9), height = std::max(cell_height, widest / 1e9);
+    inverse_width_ = 1.0 / width;
+    inverse_height_ = 1.0 / height;
+    if (period) {
+        x_ = period.x_min;
+        const double whole = std::max(1.0, std::floor(period.length * inverse_width_));
+        columns_ = static_cast<int64_t>(whole);
+        inverse_width_ = whole / period.length;
+    }
     const double cells = widest * std::max(inverse_width_, inverse_height_);
     if (!(cells < 2e9 && inverse_width_ > 0 && inverse_height_ > 0))
         throw make_error(GP_E_DIVERGED,
-                         "particles from (%g, %g) to (%g, %g) m cannot be sorted into cells of %g x %g m", box_.x_min,
-                         box_.y_min, box_.x_max, box_.y_max, cell_width, cell_height);
-    columns_ = column_of(box_.x_max) + 1;
-    rows_ = row_of(box_.y_max) + 1;
+                         "particles from (%g, %g) to (%g, %g) m cannot be sorted into cells of %g x %g m", box.x_min,
+                         box.y_min, box.x_max, box.y_max, cell_width, cell_height);
+}
 
-    order_.resize(n);
-    const auto number_cells = [&](auto &cell) {
-        for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
-            for (int64_t i = begin; i < end; ++i)
-                cell[i] = static_cast<std::remove_reference_t<decltype(cell[i])>>(row_of(particles.y[i]) * columns_ +
-                                                                                  column_of(particles.x[i]));
-        });
-    };
-    const bool dense =
-        static_cast<double>(columns_) * static_cast<double>(rows_) <= 4.0 * static_cast<double>(n) + 4096.0;
-    if (dense) {
-        key_.clear();
-        Field<double> &cell = particles.ay; // exact: they are few
-        number_cells(cell);
-        const auto cell_of = [&](int64_t i) { return static_cast<int64_t>(cell[i]); };
-        start_.assign(columns_ * rows_ + 1, 0);
-        for (int64_t i = 0; i < n; ++i)
-            ++start_[cell_of(i) + 1];
-        std::partial_sum(start_.begin(), start_.end(), start_.begin());
-        for (int64_t i = 0; i < n; ++i)
-            order_[start_[cell_of(i)]++] = static_cast<int32_t>(i);
-        // Filling moved each cell's start to its end, which is the next cell's start.
-        std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
-        start_[0] = 0;
-    } else {
-        start_.clear();
-        unsorted_.resize(n);
-        number_cells(unsorted_);
-        std::iota(order_.begin(), order_.end(), 0);
-        std::sort(order_.begin(), order_.end(), [&](int32_t a, int32_t b) {
-            return unsorted_[a] != unsorted_[b] ? unsorted_[a] < unsorted_[b] : a < b;
-        });
-        key_.resize(n);
-        for (int64_t i = 0; i < n; ++i)
-            key_[i] = unsorted_[order_[i]];
+Box box_of(const Particles &particles) {
+    // Without the images of before, which are in the arrays behind.
+    const int64_t n = particles.count;
+    if (n == 0)
+        return {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    const auto [x_low, x_high] = std::minmax_element(particles.x.begin(), particles.x.begin() + n);
+    const auto [y_low, y_high] = std::minmax_element(particles.y.begin(), particles.y.begin() + n);
+    return {*x_low, *x_high, *y_low, *y_high};
+}
+
+void CellGrid::sort(Particles &particles, const CellFrame &frame, int threads) {
+    box_ = box_of(particles);
+    number(
+        frame, frame.cell_of(box_.x_min, box_.y_min), frame.cell_of(box_.x_max, box_.y_max), particles.count,
+        particles.id.data(), [&](int64_t i) { return frame.cell_of(particles.x[i], particles.y[i]); }, particles.ay,
+        threads);
+    if (particles.count > 0)
+        particles.reorder(order_, threads);
+}
+
+namespace {
+
+// Of one cell, mostly some two, mostly in order already.
+void sort_by_id(int32_t *begin, int32_t *end, const int64_t *id) {
+    const auto before = [id](int32_t a, int32_t b) { return id[a] < id[b]; };
+    if (end - begin > 16) {
+        std::sort(begin, end, before);
+        return;
     }
-    particles.reorder(order_, threads);
+    for (int32_t *next = begin + 1; next < end; ++next)
+        for (int32_t *at = next; at > begin && before(at[0], at[-1]); --at)
+            std::swap(at[0], at[-1]);
+}
+
+} // namespace
+
+void CellGrid::put_in_order(const int64_t *id, const Field<double> &cell) {
+    const auto cell_of = [&](int64_t i) { return static_cast<int64_t>(cell[i]); };
+    key_.clear();
+    start_.assign(columns_ * rows_ + 1, 0);
+    for (int64_t i = 0; i < count_; ++i)
+        ++start_[cell_of(i) + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    for (int64_t i = 0; i < count_; ++i)
+        order_[start_[cell_of(i)]++] = static_cast<int32_t>(i);
+    // Filling moved each cell's start to its end, which is the next cell's start.
+    std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
+    start_[0] = 0;
+    for (std::size_t k = 0; k + 1 < start_.size(); ++k)
+        if (start_[k + 1] - start_[k] > 1)
+            sort_by_id(order_.data() + start_[k], order_.data() + start_[k + 1], id);
+}
+
+void CellGrid::put_in_order_by_search(const int64_t *id) {
+    start_.clear();
+    std::iota(order_.begin(), order_.end(), 0);
+    std::sort(order_.begin(), order_.end(), [&](int32_t a, int32_t b) {
+        return unsorted_[a] != unsorted_[b] ? unsorted_[a] < unsorted_[b] : id[a] < id[b];
+    });
+    key_.resize(count_);
+    for (int64_t i = 0; i < count_; ++i)
+        key_[i] = unsorted_[order_[i]];
 }
 
 int64_t CellGrid::run_begin(int64_t cell) const {

@@ -1,5 +1,7 @@
 #include "particles.hpp"
 
+#include <algorithm>
+
 #include "parallel.hpp"
 
 namespace gp {
@@ -37,7 +39,7 @@ void Particles::allocate(int64_t n, const Optional &use) {
 }
 
 void Particles::make_room(int64_t images) {
-    const auto size = static_cast<std::size_t>(count + images);
+    const auto size = static_cast<std::size_t>(std::max<int64_t>(1, count + images)); // 0 is that of a field not in use
     const auto grow = [&](auto &field) {
         if (field.empty() || size == field.size())
             return;
@@ -54,6 +56,20 @@ void Particles::make_room(int64_t images) {
           &lyx,    &lyy, &cxx,      &cxy,  &cyx,          &cyy,      &syy,        &ax,          &ay,  &push_x,
           &push_y, &gyy, &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &bearing_flow})
         grow(*field);
+}
+
+void Particles::resize(int64_t n) {
+    count = n;
+    const auto size = static_cast<std::size_t>(std::max<int64_t>(1, n));
+    id.resize(size);
+    column.resize(size);
+    for (Field<double> *field : {&x,        &y,        &vx,        &vy,           &density,  &pressure,     &sxx,
+                                 &sxy,      &syy,      &lxx,       &lxy,          &lyx,      &lyy,          &gxx,
+                                 &gxy,      &gyy,      &cxx,       &cxy,          &cyx,      &cyy,          &ax,
+                                 &ay,       &push_x,   &push_y,    &stressed,     &rest,     &inverse_rest, &fluidity,
+                                 &fluid_seen, &fluid_pull, &fluid_pace, &bearing_flow})
+        if (!field->empty())
+            field->resize(size);
 }
 
 void Particles::reorder(const Field<int32_t> &old_index, int threads) {

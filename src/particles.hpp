@@ -99,6 +99,9 @@ struct Particles {
     // Makes room for images of particles behind the real ones (periodic.hpp) in every field that neighbours read.
     void make_room(int64_t images);
 
+    // Another number of particles, in every field that is in use: those of a part of a world come and go.
+    void resize(int64_t n);
+
     // Puts the carried fields into the order old_index[new], by way of ax: between steps nobody reads accelerations.
     void reorder(const Field<int32_t> &old_index, int threads);
 

@@ -2,43 +2,110 @@
 
 namespace gp {
 
-void Images::make(Particles &particles, const Period &period, double reach) {
-    const int64_t n = particles.count;
-    length_ = period.length;
-    first_ = n;
-    source_.clear();
-    shift_.clear();
-    for (int side = 0; side < 2; ++side) {
-        image_[side].assign(n, -1);
+namespace {
+
+struct Image {
+    int32_t source;
+    double shift;
+    Cell cell; // by its source's, so that rounding never puts it among the particles
+};
+
+} // namespace
+
+void Images::make(Particles &p, const CellGrid &grid, const Period &period, double reach) {
+    const int64_t n = p.count;
+    const CellFrame &frame = grid.frame();
+    halo_ = nullptr;
+    std::vector<Image> found;
+    for (const bool up : {true, false})
         for (int64_t i = 0; i < n; ++i) {
-            const double from_end =
-                side == 0 ? particles.x[i] - period.x_min : period.x_min + period.length - particles.x[i];
+            const double from_end = up ? p.x[i] - period.x_min : period.x_min + period.length - p.x[i];
             if (from_end > reach)
                 continue;
-            image_[side][i] = static_cast<int32_t>(n + static_cast<int64_t>(source_.size()));
-            source_.push_back(static_cast<int32_t>(i));
-            shift_.push_back(shift(side));
+            Cell cell = frame.cell_of(p.x[i], p.y[i]);
+            cell.column += up ? frame.columns() : -frame.columns();
+            found.push_back({static_cast<int32_t>(i), up ? period.length : -period.length, cell});
         }
+    count = static_cast<int64_t>(found.size());
+    p.make_room(count);
+    std::vector<int64_t> id;
+    for (const Image &image : found)
+        id.push_back(p.id[image.source]);
+    put_in_order_of_cells(grid, id, [&](int64_t k) { return found[k].cell; });
+    source_.resize(count);
+    shift_.resize(count);
+    for (int64_t k = 0; k < count; ++k) {
+        const Image &image = found[cells_.order()[k]];
+        source_[k] = image.source;
+        shift_[k] = image.shift;
+        p.column[first_ + k] = p.column[image.source];
     }
-    count = static_cast<int64_t>(source_.size());
-    particles.make_room(count);
-    copy(particles.column);
-    copy({&particles.vx, &particles.vy, &particles.density, &particles.pressure, &particles.sxx, &particles.sxy});
-    if (!particles.fluidity.empty())
-        copy(particles.fluidity);
-    copy_positions(particles);
+    copy_all(p);
 }
 
-void Images::copy_positions(Particles &particles) const {
+void Images::make(Particles &p, const CellGrid &grid, Halo &halo) {
+    halo_ = &halo;
+    count = halo.count();
+    p.make_room(count);
+    put_in_order_of_cells(grid, halo.ids(), [&](int64_t k) { return halo.cell(k); });
+    halo.set_order(cells_.order(), first_, p.column.data() + first_);
+    copy_all(p);
+}
+
+template <class CellOf>
+void Images::put_in_order_of_cells(const CellGrid &grid, const std::vector<int64_t> &id, const CellOf &cell_of) {
+    first_ = grid.count();
+    split_ = grid.first_column();
+    Cell low{INT64_MAX, INT64_MAX}, high{INT64_MIN, INT64_MIN};
     for (int64_t k = 0; k < count; ++k) {
-        particles.x[first_ + k] = particles.x[source_[k]] + shift_[k];
-        particles.y[first_ + k] = particles.y[source_[k]];
+        const Cell at = cell_of(k);
+        low = {std::min(low.column, at.column), std::min(low.row, at.row)};
+        high = {std::max(high.column, at.column), std::max(high.row, at.row)};
     }
+    Field<double> room(count);
+    cells_.number(grid.frame(), low, high, count, id.data(), cell_of, room, 1);
+}
+
+void Images::copy_all(Particles &p) const {
+    copy_motion(p);
+    if (p.fluidity.empty())
+        copy({&p.density, &p.pressure, &p.sxx, &p.sxy});
+    else
+        copy({&p.density, &p.pressure, &p.sxx, &p.sxy, &p.fluidity});
+}
+
+void Images::copy(std::initializer_list<Field<double> *> fields) const {
+    if (halo_) {
+        halo_->copy(fields);
+        return;
+    }
+    for (Field<double> *field : fields)
+        for (int64_t k = 0; k < count; ++k)
+            (*field)[first_ + k] = (*field)[source_[k]];
+}
+
+void Images::copy(Field<uint8_t> &field) const {
+    if (halo_) {
+        halo_->copy(field);
+        return;
+    }
+    for (int64_t k = 0; k < count; ++k)
+        field[first_ + k] = field[source_[k]];
+}
+
+void Images::copy_motion(Particles &p) const {
+    if (halo_) {
+        halo_->copy_motion(p);
+        return;
+    }
+    copy({&p.x, &p.y, &p.vx, &p.vy});
+    for (int64_t k = 0; k < count; ++k)
+        p.x[first_ + k] += shift_[k];
 }
 
 int64_t Images::bytes() const {
-    return static_cast<int64_t>((source_.capacity() + image_[0].capacity() + image_[1].capacity()) * sizeof(int32_t) +
-                                shift_.capacity() * sizeof(double));
+    return cells_.bytes() +
+           static_cast<int64_t>(source_.capacity() * sizeof(int32_t) + shift_.capacity() * sizeof(double));
 }
 
 } // namespace gp

@@ -117,7 +117,8 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"wall_contact", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_contact, awake_near, no_work},
         // reads position, velocity; writes those of the images
-        {"update_images", t.particles && t.periodic, "the scene is periodic in x", t.particles ? not_periodic : no_particles,
+        {"update_images", t.particles && (t.periodic || t.parts),
+         t.parts ? "other processes have particles, too" : "the scene is periodic in x", t.particles ? not_periodic : no_particles,
          stages::update_images, awake, all_sleep},
         {"account", t.particles, "energy ledger, loads, extremes", no_particles, stages::account, nullptr, ""},
         // reads velocity, stress; writes who is awake, and the velocity of what falls asleep

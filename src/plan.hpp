@@ -13,6 +13,7 @@ struct Traits {
     Scheme scheme;
     bool particles, periodic, plates, friction_plates, channel, side_walls, penalty, collisions, diffusion, fluid,
         sleep;
+    bool parts = false; // others have the rest of it
 };
 
 Traits traits_of(const Scene &scene, const Constants &constants);

@@ -1,10 +1,28 @@
 // A plate's motion as a rigid body, and what acts on it. Its line is made of facets.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include "exact_sum.hpp"
 #include "geometry.hpp"
 #include "scene.hpp"
 
 namespace gp {
+
+// One over the units in which loads are added up exactly: a 2^60th of what a spacing bears under the pressure rho c0^2.
+struct LoadScale {
+    double force = 1, torque = 1; // m/N, 1/N
+
+    LoadScale() = default;
+    explicit LoadScale(const Constants &c) {
+        double modulus = 0;
+        for (const MaterialConstants &m : c.materials)
+            modulus = std::max(modulus, m.bulk_modulus);
+        force = std::exp2(60 - std::ilogb(modulus * c.spacing));
+        torque = std::exp2(60 - std::ilogb(modulus * c.spacing * c.spacing));
+    }
+};
 
 // A plate in motion.
 class Plate {
@@ -62,6 +80,13 @@ public:
     }
     // m/s, no point of its line is faster, the motion of a belt's surface included.
     double fastest() const;
+
+    ExactLoad load; // of the step under way; at its end the next three are taken from it
+    void take_load(const LoadScale &scale) {
+        force = Vector(load.fx.value(scale.force), load.fy.value(scale.force));
+        torque = load.torque.value(scale.torque);
+        torque_pivot = load.torque_pivot.value(scale.torque);
+    }
 
     Vector force = Vector::Zero();   // N/m, of the material on the plate over the last step
     double torque = 0;               // N, about its first point

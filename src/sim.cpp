@@ -8,6 +8,7 @@
 #include "check.hpp"
 #include "entry.hpp"
 #include "ledger.hpp"
+#include "parts.hpp"
 #include "stages/stages.hpp"
 #include "undo.hpp"
 #include "volume_drift.hpp"
@@ -36,10 +37,16 @@ private:
 
 // ---------------------------------------------------------------------------------------------- time loop
 
+Sim::Sim(const gp_config &config, std::unique_ptr<Crossing> crossing)
+    : scene_(config), crossing_(std::move(crossing)) {
+    if (crossing_)
+        require_partable(scene_);
+}
+
 void Sim::run_stages() {
     World &world = *world_;
     double before = now();
-    const double begin = before;
+    const double begin = before, waited = crossing_ ? crossing_->waited() : 0.0;
     for (PlannedStage &stage : stages_) {
         if (!stage.needed || (stage.now && !stage.now(world)))
             continue;
@@ -52,6 +59,8 @@ void Sim::run_stages() {
     world.clock.time += world.clock.dt;
     ++world.clock.step;
     wall_seconds_ += before - begin;
+    if (crossing_)
+        world.share.work += before - begin - (crossing_->waited() - waited);
 }
 
 // A step that diverges is undone and, if the host wants it, taken anew as two pieces of half its size, one after the other;
@@ -99,6 +108,8 @@ std::vector<std::string> Sim::take_step() {
 gp_status Sim::advance(gp_sim *handle, double t_end) {
     std::vector<std::string> notes;
     try {
+        whole_.reset();
+        whole_known_ = false;
         notes = take_step();
     } catch (const Error &error) {
         diverged_ = error.status() == GP_E_DIVERGED;
@@ -122,7 +133,7 @@ gp_status Sim::advance(gp_sim *handle, double t_end) {
     }
     try {
         warn(notes);
-        if (log_)
+        if (log_ && !crossing_) // which looks at all particles, and every so often
             warn(warnings_.of_step(*world_));
     } catch (...) { // out of memory
         lost = lost ? lost : std::current_exception();
@@ -181,6 +192,8 @@ void Sim::require_unstarted(const char *call) const {
 
 void Sim::scene_changed() {
     world_.reset();
+    whole_.reset();
+    whole_known_ = false;
     warnings_ = {};
     ++epoch_;
 }
@@ -205,9 +218,37 @@ int32_t Sim::add_column(const gp_column &column) {
 int32_t Sim::add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                            const double *vy) {
     require_unstarted("gp_add_particles");
-    const int32_t id = scene_.add_particles(material, n, x, y, vx, vy);
+    const int32_t id = crossing_ ? add_particles_of_all(material, n, x, y, vx, vy)
+                                 : scene_.add_particles(material, n, x, y, vx, vy);
     scene_changed();
     return id;
+}
+
+// What each process adds, one after the other. What is wrong with one's, its own scene says; all say it.
+int32_t Sim::add_particles_of_all(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
+                                  const double *vy) {
+    std::string wrong;
+    try {
+        if (n != 0)
+            Scene(scene_).add_particles(material, n, x, y, vx, vy);
+    } catch (const Error &error) {
+        wrong = error.what();
+    }
+    const double own = wrong.empty() ? 0 : 1;
+    double any = own;
+    crossing_->combine(&any, 1, nullptr, 0);
+    if (any > 0)
+        throw Error(GP_E_ARGUMENT, text_of_largest(*crossing_, any = own, wrong));
+    std::vector<double> all[4];
+    const double *const given[4] = {x, y, vx, vy};
+    for (int k = 0; k < 4; ++k) {
+        std::vector<double> mine(static_cast<std::size_t>(n), 0.0);
+        if (given[k])
+            std::copy_n(given[k], n, mine.begin());
+        crossing_->gather_everywhere(mine, all[k]);
+    }
+    return scene_.add_particles(material, static_cast<int64_t>(all[0].size()), all[0].data(), all[1].data(),
+                                all[2].data(), all[3].data());
 }
 
 int32_t Sim::add_plate(const gp_plate &plate) {
@@ -244,12 +285,18 @@ void Sim::set_gravity(double gx, double gy) {
     if (started_) {
         if (gravity == world_->constants.gravity)
             return;
-        change_gravity(*world_, gravity);
+        if (crossing_) {
+            whole();
+            run_on_first(*crossing_, [&] { change_gravity(*whole_, gravity); });
+            spread_common(*world_, whole_.get());
+        } else {
+            change_gravity(*world_, gravity);
+        }
         if (world_->sleep.in_use)
             stages::wake_all(*world_);
         ++epoch_;
         if (log_)
-            warn(warnings_.of_gravity(*world_));
+            warn(warnings_.of_gravity(*world_)); // of constants
     } else {
         scene_.set_gravity(gravity);
         scene_changed();
@@ -264,6 +311,32 @@ void Sim::prepare() {
         world_->lists_valid = false;
         return;
     }
+    if (!crossing_) {
+        set_world(begin_world());
+        return;
+    }
+    std::unique_ptr<World> first;
+    run_on_first(*crossing_, [&] { first = begin_world(); });
+    set_world(deal_out(scene_, *crossing_, first.get()));
+    whole_ = std::move(first);
+    whole_epoch_ = epoch_;
+    whole_known_ = true;
+}
+
+const World *Sim::whole() {
+    if (!crossing_)
+        return world_.get();
+    if (!whole_known_ || whole_epoch_ != epoch_) {
+        whole_.reset(); // before there are two
+        whole_ = put_together(*world_);
+        whole_epoch_ = epoch_;
+        whole_known_ = true;
+    }
+    return whole_.get();
+}
+
+// The world before its first step, with lists and ledger.
+std::unique_ptr<World> Sim::begin_world() const {
     auto world = make_world(scene_);
     stages::measure_velocities(*world);
     stages::update_neighbors(*world);
@@ -278,12 +351,12 @@ void Sim::prepare() {
     world->packing_at_start = packing.particles > 0
                                   ? packing.number_density
                                   : packing_of_lattice(world->constants.horizon, world->constants.spacing);
-
-    set_world(std::move(world));
+    return world;
 }
 
 void Sim::set_world(std::unique_ptr<World> world) {
     traits_ = traits_of(scene_, world->constants);
+    traits_.parts = crossing_ != nullptr;
     stages_ = make_stages(traits_);
     world_ = std::move(world);
 }
@@ -293,8 +366,16 @@ Progress Sim::progress() const {
 }
 
 void Sim::resume(std::unique_ptr<World> world, const Progress &progress) {
-    if (world)
+    if (crossing_) {
+        if (progress.started) {
+            set_world(deal_out(scene_, *crossing_, world.get()));
+            whole_ = std::move(world);
+            whole_epoch_ = progress.epoch;
+            whole_known_ = true;
+        }
+    } else if (world) {
         set_world(std::move(world));
+    }
     started_ = progress.started;
     diverged_ = progress.diverged;
     warnings_.set_told(progress.told);
@@ -312,7 +393,11 @@ void Sim::require_steppable() const {
         stages::require_moderate_flow(*world_);
     if (const std::string note = warnings_.note_of_scene(*world_); !note.empty())
         log(GP_LOG_INFO, note);
-    warn(self.warnings_.of_scene(*world_));
+    if (!crossing_)
+        warn(self.warnings_.of_scene(*world_));
+    else if (world_->clock.step == 0)
+        if (const World *all = self.whole())
+            warn(self.warnings_.of_scene(*all));
     self.started_ = true;
 }
 
@@ -349,7 +434,7 @@ void Sim::set_log(gp_log callback, void *user) {
 }
 
 void Sim::log(int32_t level, const std::string &text) const {
-    if (log_) {
+    if (log_ && (!crossing_ || crossing_->rank() == 0)) { // once
         const BackToHost host;
         log_(log_user_, level, text.c_str());
     }

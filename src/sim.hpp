@@ -10,6 +10,7 @@
 #include "plan.hpp"
 #include "scene.hpp"
 #include "warnings.hpp"
+#include "whole.hpp"
 #include "world.hpp"
 
 namespace gp {
@@ -32,7 +33,8 @@ struct Progress {
 
 class Sim {
 public:
-    explicit Sim(const gp_config &config) : scene_(config) {}
+    // crossing: to the other processes that the simulation is of; all calls are theirs, too, in the same order.
+    explicit Sim(const gp_config &config, std::unique_ptr<Crossing> crossing = nullptr);
 
     // Adding to the scene; possible until the first step.
     int32_t add_material(const gp_material &material);
@@ -55,6 +57,9 @@ public:
     // unfinished. Readers call it first.
     void prepare();
     Progress progress() const;
+    // The world of all processes: on the first of them, elsewhere NULL. A process alone has it anyway.
+    const World *whole();
+    Crossing *crossing() const { return crossing_.get(); }
     // Goes on from a checkpoint: world is that of this scene, NULL before the first step.
     void resume(std::unique_ptr<World> world, const Progress &progress);
     void set_plate_start(int32_t plate, const Vector &start, double angle) {
@@ -82,8 +87,16 @@ private:
     void set_world(std::unique_ptr<World> world);
     gp_status advance(gp_sim *handle, double t_end); // one step, output and callback
 
+    std::unique_ptr<World> begin_world() const;
+    int32_t add_particles_of_all(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
+                                 const double *vy);
+
     Scene scene_;
-    std::unique_ptr<World> world_;
+    std::unique_ptr<Crossing> crossing_;
+    std::unique_ptr<World> world_;            // or the part of it that is this process's
+    std::unique_ptr<World> whole_;            // of all parts, as it was in the epoch
+    uint64_t whole_epoch_ = 0;
+    bool whole_known_ = false;
     Traits traits_{};
     std::vector<PlannedStage> stages_;
     bool started_ = false, diverged_ = false, in_callback_ = false;

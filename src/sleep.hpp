@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exact_sum.hpp"
 #include "geometry.hpp"
 #include "particles.hpp"
 
@@ -23,11 +24,6 @@ struct MeanLoad {
     int64_t id; // of the particle
     int32_t plate;
     double x, y, couple;
-};
-
-struct HeldLoad { // by what sleeps, on one plate
-    Vector force = Vector::Zero();
-    double torque = 0, torque_pivot = 0;
 };
 
 struct Sleep {
@@ -56,7 +52,7 @@ struct Sleep {
     std::vector<MeanLoad> loads, earlier_loads; // by contact
     Field<int32_t> load_of_id;
     std::vector<Vector> pushed; // N/m, by pushes in this step, by contact
-    std::vector<HeldLoad> held; // by plate
+    std::vector<ExactLoad> held; // by what sleeps, on each plate
 
     bool all() const { return some && awake == 0; }
     int64_t bytes() const {
@@ -66,7 +62,7 @@ struct Sleep {
                 sizeof(int32_t) +
             touches.capacity() * sizeof(Touch) + (contacts.capacity() + ghosts.capacity()) * sizeof(IndexRun) +
             (loads.capacity() + earlier_loads.capacity()) * sizeof(MeanLoad) + pushed.capacity() * sizeof(Vector) +
-            held.capacity() * sizeof(HeldLoad));
+            held.capacity() * sizeof(ExactLoad));
     }
 };
 

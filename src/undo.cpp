@@ -148,17 +148,17 @@ void undo_step(World &world, UndoneOrder order) {
             follow_density(world);
         for (std::size_t k = 0; k < made.size(); ++k)
             made[k]->swap(start.made[k]);
-        const Particles &p = world.particles;
-        if (world.images.count > 0) {
-            world.images.copy_positions(world.particles);
+        if (world.images.in_use()) {
+            const Particles &p = world.particles;
+            world.images.copy_motion(world.particles);
             for (Field<double> *field : changed)
-                if (field != &p.x && field != &p.y)
+                if (field != &p.x && field != &p.y && field != &p.vx && field != &p.vy)
                     world.images.copy(*field);
             world.images.copy({&world.particles.pressure, &world.particles.sxx, &world.particles.sxy});
         }
     }
     give_memory_back(world);
-    const bool sorted = world.lists_new && start.fields_kept && !world.constants.period;
+    const bool sorted = world.lists_new && start.fields_kept && !world.constants.period && !world.crossing;
     if (world.lists_new)
         world.lists_valid = false; // the plates are about to be where they were
     start.fields_kept = false;

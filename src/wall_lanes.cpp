@@ -48,23 +48,49 @@ void LaneRows::add(Row (&rows)[lane_count]) {
 
 int64_t WallLanes::bytes() const {
     return particles_of_ghosts.bytes() + ghosts_of_contacts.bytes() +
-           static_cast<int64_t>(contacts.capacity() * sizeof(ContactGroup) + of_cluster.capacity() * sizeof(int32_t));
+           static_cast<int64_t>(contacts.capacity() * sizeof(ContactGroup) +
+                                (of_cluster.capacity() + number_of_.capacity() + of_number_.capacity() +
+                                 numbers_.capacity()) *
+                                    sizeof(int32_t));
 }
 
-void WallLanes::make(const Walls &walls, const ClusterList &clusters) {
+void WallLanes::make_rows_of_ghosts(const Walls &walls, const CellGrid &grid, const Images &images) {
+    const NeighborList &seen = walls.particles_of_ghost;
+    const bool numbered = images.count > 0;
+    const int32_t *entries = seen.index.data();
+    if (numbered) {
+        of_number_.clear();
+        number_of_.resize(grid.count() + images.count);
+        const Box all{-INFINITY, INFINITY, -INFINITY, INFINITY};
+        for_each_run_in(grid, images, all, [&](int64_t begin, int64_t end) {
+            for (int64_t j = begin; j < end; ++j) {
+                number_of_[j] = static_cast<int32_t>(of_number_.size());
+                of_number_.push_back(static_cast<int32_t>(j));
+            }
+        });
+        numbers_.resize(seen.index.size());
+        std::transform(seen.index.begin(), seen.index.end(), numbers_.begin(), [&](int32_t j) { return number_of_[j]; });
+        entries = numbers_.data();
+    }
+    for (int64_t first = 0; first < walls.ghost_count; first += lane_count) {
+        LaneRows::Row rows[lane_count];
+        for (int l = 0; l < lane_count && first + l < walls.ghost_count; ++l)
+            rows[l] = {entries + seen.start[first + l], entries + seen.start[first + l + 1]};
+        particles_of_ghosts.add(rows);
+    }
+    if (numbered)
+        for (int32_t &entry : particles_of_ghosts.index)
+            entry = of_number_[entry];
+}
+
+void WallLanes::make(const Walls &walls, const ClusterList &clusters, const CellGrid &grid, const Images &images) {
     particles_of_ghosts.clear();
     ghosts_of_contacts.clear();
     contacts.clear();
     of_cluster.clear();
     if (!walls.in_reach())
         return;
-    const NeighborList &seen = walls.particles_of_ghost;
-    for (int64_t first = 0; first < walls.ghost_count; first += lane_count) {
-        LaneRows::Row rows[lane_count];
-        for (int l = 0; l < lane_count && first + l < walls.ghost_count; ++l)
-            rows[l] = {seen.index.data() + seen.start[first + l], seen.index.data() + seen.start[first + l + 1]};
-        particles_of_ghosts.add(rows);
-    }
+    make_rows_of_ghosts(walls, grid, images);
     of_cluster.push_back(0);
     for (int64_t c = 0; c < clusters.count(); ++c) {
         const int32_t first = clusters.first[c], lanes = clusters.first[c + 1] - first;

@@ -1,6 +1,6 @@
 // Who sees what through the surfaces of plates, four at a time: the loops over ghosts take a group of them at once, one in each
-// lane, as the pair loops take clusters of particles (clusters.hpp). A group's row is what any of its lanes sees, in order of
-// index, with the lanes that do.
+// lane, as the pair loops take clusters of particles (clusters.hpp). A group's row is what any of its lanes sees, in the order in
+// which each lane's own row has it, with the lanes that do.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,9 @@
 
 namespace gp {
 
+class CellGrid;
 struct ClusterList;
+class Images;
 struct Walls;
 
 struct LaneRows {
@@ -42,7 +44,13 @@ struct WallLanes {
     Field<int32_t> of_cluster;    // groups of cluster c: of_cluster[c] .. of_cluster[c + 1]
 
     int64_t bytes() const;
-    void make(const Walls &walls, const ClusterList &clusters);
+    void make(const Walls &walls, const ClusterList &clusters, const CellGrid &grid, const Images &images);
+
+private:
+    void make_rows_of_ghosts(const Walls &walls, const CellGrid &grid, const Images &images);
+
+    // With images, that lie before and between the particles in the order of cells: which is the how many-th there.
+    Field<int32_t> number_of_, of_number_, numbers_;
 };
 
 } // namespace gp

@@ -63,9 +63,10 @@ void Walls::add_load(int32_t facet, const Vector &at, const Vector &force) {
     const auto moment = [&](const Vector &arm) { return arm.x() * force.y() - arm.y() * force.x(); };
     const Segment &s = f.segment, &first = facets[facet - f.number].segment;
     const Vector image = nearest_image(s, at);
-    plate.force += force;
-    plate.torque += s.along(image) * moment(s.tangent) + moment(s.origin - first.origin);
-    plate.torque_pivot += moment(image - plate.pivot());
+    plate.load.fx.add(force.x(), load_scale.force);
+    plate.load.fy.add(force.y(), load_scale.force);
+    plate.load.torque.add(s.along(image) * moment(s.tangent) + moment(s.origin - first.origin), load_scale.torque);
+    plate.load.torque_pivot.add(moment(image - plate.pivot()), load_scale.torque);
 }
 
 // A facet, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long
@@ -90,10 +91,12 @@ const std::vector<FacetImage> &Walls::images_of_facets() {
     return all;
 }
 
-const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius) {
+const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius, Crossing *crossing) {
     std::vector<Segment> &found = barriers_.segments;
     found.clear();
+    std::vector<double> behind_of; // of images, 1 or 0
     for (const FacetImage &image : images_of_facets()) {
+        behind_of.push_back(0);
         const Segment &s = image.segment;
         const Box box = box_around(s, radius);
         if (particles.count == 0 || box.gap(grid.box()) > 0)
@@ -106,21 +109,23 @@ const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid
                 behind = s.distance(r) < -allowed && s.nearest_square(r) < radius * radius;
             }
         });
-        if (behind)
-            found.push_back(s);
+        behind_of.back() = behind ? 1 : 0;
     }
+    if (crossing)
+        crossing->combine(behind_of.data(), static_cast<int>(behind_of.size()), nullptr, 0);
+    for (std::size_t k = 0; k < behind_of.size(); ++k)
+        if (behind_of[k] > 0)
+            found.push_back(images_[k].segment);
     barriers_.cells.sort(
         static_cast<int64_t>(found.size()), [&](int64_t k) { return &found[k]; }, grid.box(), radius);
     return barriers_;
 }
 
-void Walls::find_near(const Particles &particles, const CellGrid &grid, double radius) {
-    if (particles.count == 0)
-        return;
+void Walls::find_near(const Box &everywhere, double radius) {
     for (Plate &plate : plates)
         plate.gap = INFINITY;
     for (FacetImage &image : images_) {
-        const double gap = box_around(image.segment, radius).gap(grid.box());
+        const double gap = box_around(image.segment, radius).gap(everywhere);
         Plate &plate = plates[facets[image.facet].plate];
         plate.gap = std::min(plate.gap, gap);
         image.near = gap <= 0;
@@ -130,7 +135,8 @@ void Walls::find_near(const Particles &particles, const CellGrid &grid, double r
 void Walls::place_candidates(const CellGrid &grid, double radius, double spacing) {
     places_.clear();
     for (const FacetChains::Chain &chain : chains_.all())
-        chains_.add_places(chain, images_, grid.box(), radius, spacing, places_);
+        if (grid.count() > 0)
+            chains_.add_places(chain, images_, grid.box(), radius, spacing, places_);
     candidates_.assign(places_.size(), {0, 0, false});
 }
 
@@ -211,6 +217,7 @@ void Walls::keep_seen() {
     places_.resize(kept);
     particles_of_ghost.index.resize(entries);
     ghost_count = static_cast<int64_t>(candidates_.size());
+    ghosts_placed = false;
     ghost_facet.resize(ghost_count);
     ghost_chain.resize(ghost_count);
     if (period)
@@ -299,10 +306,10 @@ void Walls::add_contacts(const Particles &particles, int64_t i, int32_t begin, i
     }
 }
 
-void Walls::find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                          double reach, double spacing, bool may_join, int threads) {
+void Walls::find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, const Box &everywhere,
+                          double radius, double reach, double spacing, bool may_join, int threads) {
     images_of_facets();
-    find_near(particles, grid, radius);
+    find_near(everywhere, radius);
     chains_.find(plates, facets, images_, reach, spacing, may_join);
     place_candidates(grid, radius, spacing);
     cells_.sort(
@@ -386,6 +393,7 @@ void Walls::find_wall_particles(double spacing) {
 }
 
 void Walls::place_ghosts(int threads) {
+    ghosts_placed = true;
     for_each_block<ghost_block_size>(threads, ghost_count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
             const Segment &s = facets[ghost_facet[k]].segment;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clusters.hpp"
+#include "crossing.hpp"
 #include "facet_chains.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
@@ -43,9 +44,11 @@ struct Walls {
     std::vector<Plate> plates;
     std::vector<Facet> facets; // of all plates, one plate after the other
     Period period;             // of the scene
+    LoadScale load_scale;      // likewise
 
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
+    bool ghosts_placed = false; // by place_ghosts, since the lists were made
     Field<int32_t> ghost_facet;   // the one in front of it
     Field<int32_t> ghost_chain;   // number
     Field<int32_t> wall_particle; // the ghost of the first layer whose state it takes; only in the paper's schemes
@@ -83,14 +86,17 @@ struct Walls {
 
     // The loads are those of one step: the stage that finds the forces clears them first.
     void clear_loads() {
-        for (Plate &plate : plates) {
-            plate.force = Vector::Zero();
-            plate.torque = plate.torque_pivot = 0;
-        }
+        for (Plate &plate : plates)
+            plate.load = {};
+    }
+    void take_loads() {
+        for (Plate &plate : plates)
+            plate.take_load(load_scale);
     }
 
     // The material's force (N/m) on a facet of a plate, acting at a point.
     void add_load(int32_t facet, const Vector &at, const Vector &force);
+    void add_couple(int32_t plate, double couple) { plates[plate].load.torque_pivot.add(couple, load_scale.torque); }
 
     // The facets of all plates, where these are.
     void make_facets(const Scene &scene);
@@ -101,13 +107,13 @@ struct Walls {
     bool in_reach() const { return !contacts.empty(); }
     int64_t bytes() const;
 
-    // Plates with material right behind them.
-    const Barriers &barriers(const Particles &particles, const CellGrid &grid, double radius);
+    // Plates with material right behind them, anywhere.
+    const Barriers &barriers(const Particles &particles, const CellGrid &grid, double radius, Crossing *crossing);
 
-    // Finds ghosts and contacts within `radius` of the sorted particles. reach: the radius without a skin; may_join: plates
-    // that meet become one wall.
-    void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                       double reach, double spacing, bool may_join, int threads);
+    // Finds ghosts and contacts within `radius` of the sorted particles. everywhere: the box of all particles, also those of other
+    // processes; reach: the radius without a skin; may_join: plates that meet become one wall.
+    void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, const Box &everywhere,
+                       double radius, double reach, double spacing, bool may_join, int threads);
 
     // Do the plates that made a wall when the lists were made still move together?
     bool chains_stand() const { return chains_.stand(plates); }
@@ -135,7 +141,7 @@ struct Walls {
 
 private:
     const std::vector<FacetImage> &images_of_facets();
-    void find_near(const Particles &particles, const CellGrid &grid, double radius);
+    void find_near(const Box &everywhere, double radius);
     void place_candidates(const CellGrid &grid, double radius, double spacing);
     void find_seeing(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
                      double spacing, int threads);

@@ -4,10 +4,10 @@
 
 namespace gp {
 
-std::unique_ptr<World> make_world(const Scene &scene) {
+std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &constants, int64_t count) {
     auto world = std::make_unique<World>();
     world->scene = &scene;
-    world->constants = scene.constants();
+    world->constants = constants;
     const int32_t threads = scene.config().threads;
     world->threads = threads > 0 ? threads : default_threads();
     const Constants &c = world->constants;
@@ -15,11 +15,27 @@ std::unique_ptr<World> make_world(const Scene &scene) {
     Particles &p = world->particles;
     p.volume = c.volume;
     const bool exchanged = scene.config().density_diffusion > 0;
-    p.allocate(scene.particle_count(),
-               {c.penalty > 0 && c.scheme != Scheme::adjoint, c.fluid, exchanged && c.fluid && c.one_density(),
-                exchanged && !c.one_density(), c.scheme != Scheme::paper_local, by_number_density(c.scheme),
-                scene.config().sleep == 1});
+    p.allocate(count, {c.penalty > 0 && c.scheme != Scheme::adjoint, c.fluid, exchanged && c.fluid && c.one_density(),
+                       exchanged && !c.one_density(), c.scheme != Scheme::paper_local, by_number_density(c.scheme),
+                       scene.config().sleep == 1});
     world->sleep.in_use = scene.config().sleep == 1;
+    const int64_t blocks = block_count(count);
+    world->sums.resize(blocks);
+    world->ranges.resize(blocks);
+    if (scene.config().collision_distance > 0)
+        world->colliding.resize(count);
+    world->walls.period = c.period;
+    world->walls.load_scale = LoadScale(c);
+    for (const PlateSpec &spec : scene.plates())
+        world->walls.plates.emplace_back(spec);
+    world->walls.make_facets(scene);
+    return world;
+}
+
+std::unique_ptr<World> make_world(const Scene &scene) {
+    std::unique_ptr<World> world = make_bare_world(scene, scene.constants(), scene.particle_count());
+    const Constants &c = world->constants;
+    Particles &p = world->particles;
     const std::vector<InitialStress> stress = scene.initial_stress(c);
     for (int64_t i = 0; i < p.count; ++i) {
         p.id[i] = i;
@@ -35,15 +51,6 @@ std::unique_ptr<World> make_world(const Scene &scene) {
     }
     for (int64_t i = 0; i < p.count; ++i)
         world->mass += world->material_of(i).density * p.volume;
-    const int64_t blocks = block_count(p.count);
-    world->sums.resize(blocks);
-    world->ranges.resize(blocks);
-    if (scene.config().collision_distance > 0)
-        world->colliding.resize(p.count);
-    world->walls.period = c.period;
-    for (const PlateSpec &spec : scene.plates())
-        world->walls.plates.emplace_back(spec);
-    world->walls.make_facets(scene);
     world->walls.place_plates(0, c.spacing / c.wave_speed);
     return world;
 }

@@ -98,6 +98,14 @@ struct ListOrigin {
     int64_t bytes() const { return static_cast<int64_t>((x.capacity() + y.capacity()) * sizeof(double)); }
 };
 
+// Of the part of a world: how much it has to do.
+struct PartShare {
+    bool dealt = false; // whose cells are whose has been settled
+    double work = 0;    // s, in stages, since it was
+    int lists = 0;      // made since then; after so many it is looked whether the work has become uneven
+    int lists_between = 10;
+};
+
 struct World {
     const Scene *scene = nullptr;
     Constants constants;
@@ -105,7 +113,12 @@ struct World {
 
     Particles particles;
     CellGrid grid;
-    Images images; // of a periodic scene, else empty
+    Images images; // of a periodic scene or of a part of a world, else empty
+    // Of a part of a world, whose other parts other processes have: all sums over particles that steps depend on are of all.
+    Crossing *crossing = nullptr;
+    std::unique_ptr<Halo> halo;
+    PartShare share;
+    Box box; // of all particles when the lists were made
     ClusterList clusters;
     NeighborList neighbors; // of single particles; empty in the default scheme
     Walls walls;
@@ -151,6 +164,8 @@ struct World {
     bool is_fluid(int64_t i) const { return fluidity_of(i).cooperativity2 > 0; }
 };
 
+// With room for so many particles, plates where they begin.
+std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &constants, int64_t count);
 // The world of a scene before its first step: particles and plates in place, no lists yet.
 std::unique_ptr<World> make_world(const Scene &scene);
 

@@ -15,7 +15,7 @@ namespace gp::io {
 
 #ifndef GP_WITH_HDF5
 
-void save_checkpoint(const std::string &, const Sim &, const OutputPosition &) {
+void save_checkpoint(const std::string &, const Sim &, const World *, const OutputPosition &) {
     throw make_error(GP_E_UNSUPPORTED, "gp_save: this build has no HDF5");
 }
 
@@ -484,7 +484,9 @@ std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, 
     if (world->sleep.in_use)
         read_sleep(file, *world);
     read_motions(file, check, *world);
+    const Field<double> listed_x = world->walls.ghost_x, listed_y = world->walls.ghost_y;
     exchange_ghosts(file, world->walls);
+    world->walls.ghosts_placed = world->walls.ghost_x != listed_x || world->walls.ghost_y != listed_y;
     for (const auto *field :
          {&world->walls.ghost_x, &world->walls.ghost_y, &world->walls.ghost_nx, &world->walls.ghost_ny}) {
         check.same_size("ghosts", *field, static_cast<std::size_t>(world->walls.ghost_count));
@@ -522,12 +524,18 @@ void read_all(CheckpointReader &file, const std::function<Sim &(const gp_config 
     check.require((progress.told & ~Warnings::all_kinds) == 0, "warnings of an unknown kind");
     check.not_negative("wall_seconds", progress.wall_seconds);
     position = read_position(file, check);
-    sim.resume(progress.started ? read_world(file, check, sim.scene()) : nullptr, progress);
+    std::unique_ptr<World> world;
+    const auto read = [&] { world = read_world(file, check, sim.scene()); };
+    if (progress.started && sim.crossing())
+        run_on_first(*sim.crossing(), read);
+    else if (progress.started)
+        read();
+    sim.resume(std::move(world), progress);
 }
 
 } // namespace
 
-void save_checkpoint(const std::string &path, const Sim &sim, const OutputPosition &position) {
+void save_checkpoint(const std::string &path, const Sim &sim, const World *world, const OutputPosition &position) {
     std::vector<unsigned char> bytes;
     const std::string target = replaceable_path(path); // before the work
     {
@@ -538,8 +546,8 @@ void save_checkpoint(const std::string &path, const Sim &sim, const OutputPositi
         exchange_progress(file, progress);
         const PositionTable at{position, {position.path.begin(), position.path.end()}};
         exchange_position(file, at);
-        if (progress.started)
-            write_world(file, sim.world());
+        if (world)
+            write_world(file, *world);
         bytes = file.bytes();
     }
     replace_file(target, bytes.data(), bytes.size());

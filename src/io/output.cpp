@@ -39,6 +39,29 @@ void check_options(const gp_output &o) {
 
 } // namespace
 
+namespace {
+
+// A step that ends within rounding of a multiple has reached it.
+double reached_time(const World &world) {
+    return world.clock.time + 1e-9 * world.clock.dt;
+}
+
+int64_t next_multiple(double time, double every) {
+    const double passed = std::floor(time / every);
+    return passed < 0x1p62 ? static_cast<int64_t>(passed) + 1 : INT64_MAX; // of a tiny one, every step passes some
+}
+
+} // namespace
+
+bool FrameTimes::due(const World &world) const {
+    return every > 0 && reached_time(world) >= static_cast<double>(next) * every;
+}
+
+void FrameTimes::pass(const World &world) {
+    if (every > 0)
+        next = next_multiple(reached_time(world), every);
+}
+
 #ifdef GP_WITH_HDF5
 
 namespace {
@@ -114,7 +137,7 @@ struct Output::Impl {
     std::vector<std::vector<double>> values;
     std::vector<double> observables, wall_points;
     std::unique_ptr<FrameFile> file;
-    int64_t next = 0; // the next frame by itself is due at next * every_seconds
+    FrameTimes times;
 
     void write(int64_t step, double time) {
         std::vector<const double *> components;
@@ -153,22 +176,13 @@ bool is_at(const OutputPosition &left_off, const std::string &path, const World 
     return !left_off.path.empty() && left_off.step == world.clock.step && is_same_file(left_off.path, path);
 }
 
-// A step that ends within rounding of a multiple has reached it.
-double reached_time(const World &world) {
-    return world.clock.time + 1e-9 * world.clock.dt;
-}
-
-int64_t next_multiple(double time, double every) {
-    const double passed = std::floor(time / every);
-    return passed < 0x1p62 ? static_cast<int64_t>(passed) + 1 : INT64_MAX; // of a tiny one, every step passes some
-}
-
 } // namespace
 
 Output::Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off)
     : impl_(new Impl) {
     check_options(options);
     impl_->options = options;
+    impl_->times.every = options.every_seconds;
     std::error_code none; // of a path that names no file: opening it says so
     impl_->path = std::filesystem::absolute(path, none).lexically_normal().string();
     uint32_t asked = options.fields | GP_FIELD_ID | GP_FIELD_POSITION;
@@ -224,9 +238,9 @@ Output::Output(const std::string &path, const gp_output &options, const World &w
         write(world);
     }
     if (own_position && left_off.every_seconds == options.every_seconds)
-        impl_->next = left_off.next;
-    else if (options.every_seconds > 0)
-        impl_->next = next_multiple(reached_time(world), options.every_seconds);
+        impl_->times.next = left_off.next;
+    else
+        impl_->times.pass(world);
 }
 
 Output::~Output() = default;
@@ -240,11 +254,9 @@ void Output::write(const World &world) {
 }
 
 void Output::step_done(const World &world) {
-    const double every = impl_->options.every_seconds;
-    const double reached = reached_time(world);
-    if (every <= 0 || reached < static_cast<double>(impl_->next) * every)
+    if (!impl_->times.due(world))
         return;
-    impl_->next = next_multiple(reached, every);
+    impl_->times.pass(world);
     write(world);
 }
 
@@ -252,13 +264,19 @@ void Output::close() {
     impl_->file->close();
 }
 
+const FrameTimes &Output::times() const {
+    return impl_->times;
+}
+
 OutputPosition Output::position(const World &world) const {
-    return {impl_->path, impl_->options.every_seconds, impl_->next, impl_->file->frames(), world.clock.step};
+    return {impl_->path, impl_->times.every, impl_->times.next, impl_->file->frames(), world.clock.step};
 }
 
 #else
 
-struct Output::Impl {};
+struct Output::Impl {
+    FrameTimes times;
+};
 
 Output::Output(const std::string &, const gp_output &options, const World &, const OutputPosition &) {
     check_options(options);
@@ -268,6 +286,9 @@ Output::~Output() = default;
 void Output::step_done(const World &) {}
 void Output::write(const World &) {}
 void Output::close() {}
+const FrameTimes &Output::times() const {
+    return impl_->times;
+}
 OutputPosition Output::position(const World &) const {
     return {};
 }

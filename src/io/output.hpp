@@ -19,6 +19,14 @@ struct OutputPosition {
     int64_t step = 0;   // of the simulation, then
 };
 
+// When frames are due by themselves.
+struct FrameTimes {
+    double every = 0; // s; 0: never
+    int64_t next = 0; // the next one is due at next * every
+    bool due(const World &world) const;
+    void pass(const World &world); // that of now is done
+};
+
 // Checks the options, creates the file and, with every_seconds > 0, writes the first frame; or with append continues a file:
 // as it was at left_off, if that is of this file and of the world's step, else with the frames up to the world's step.
 // Throws gp::Error; GP_E_UNSUPPORTED in a build without HDF5.
@@ -30,6 +38,7 @@ public:
     void write(const World &world);
     void close();
     OutputPosition position(const World &world) const;
+    const FrameTimes &times() const;
 
 private:
     struct Impl;

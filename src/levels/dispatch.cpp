@@ -47,5 +47,8 @@ extern "C" {
         return engine().name arguments;                                                                                \
     }
 #include "levels/calls.inc"
+#ifdef GP_WITH_MPI
+#include "levels/mpi_calls.inc"
+#endif
 #undef GP_CALL
 }

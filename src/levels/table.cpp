@@ -9,5 +9,8 @@ extern "C" constexpr gp::Entries GP_LEVEL_TABLE = {
     gp::level_name,
 #define GP_CALL(result, name, parameters, arguments) name,
 #include "levels/calls.inc"
+#ifdef GP_WITH_MPI
+#include "levels/mpi_calls.inc"
+#endif
 #undef GP_CALL
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "awake.hpp"
+#include "parts.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -38,7 +39,7 @@ VelocityRange velocities_of(const Plate &plate, const Box &about) {
 
 // Where material may meet plates until the next lists: of a periodic scene, at any x.
 Box box_of_contacts(const World &world) {
-    Box box = world.grid.box();
+    Box box = world.box;
     const double margin = world.constants.reach + world.skin;
     box = {box.x_min - margin, box.x_max + margin, box.y_min - margin, box.y_max + margin};
     if (world.constants.period) {
@@ -48,9 +49,8 @@ Box box_of_contacts(const World &world) {
     return box;
 }
 
-} // namespace
-
-void measure_velocities(World &world) {
+// Velocities, kinetic energy and what is not balanced, of each block.
+void measure_blocks(World &world) {
     const Particles &p = world.particles;
     const double threshold = rest_acceleration * world.constants.gravity.norm(), threshold2 = threshold * threshold;
     const double inverse_dt = world.clock.dt > 0 ? 1.0 / world.clock.dt : 0.0;
@@ -73,8 +73,9 @@ void measure_velocities(World &world) {
         world.sums[block].unbalanced = p.volume * unbalanced;
     });
 
-    if (p.count == 0)
-        return;
+}
+
+BlockRange range_of_blocks(const World &world) {
     BlockRange all{INFINITY, -INFINITY, INFINITY, -INFINITY};
     for (const BlockRange &range : world.ranges) {
         all.u_min = std::min(all.u_min, range.u_min);
@@ -82,6 +83,13 @@ void measure_velocities(World &world) {
         all.v_min = std::min(all.v_min, range.v_min);
         all.v_max = std::max(all.v_max, range.v_max);
     }
+    return all;
+}
+
+// all: the extremes of all particles.
+void bound_velocities(World &world, BlockRange all) {
+    if (!(all.u_min <= all.u_max)) // there are none
+        return;
     world.fastest = std::hypot(std::max(-all.u_min, all.u_max), std::max(-all.v_min, all.v_max));
     const Box about = box_of_contacts(world);
     for (const Plate &plate : world.walls.plates) {
@@ -94,6 +102,33 @@ void measure_velocities(World &world) {
         all.v_max = std::max(all.v_max, own.high.y());
     }
     world.velocity_span = std::hypot(all.u_max - all.u_min, all.v_max - all.v_min);
+}
+
+BlockSums sum_of_blocks(const World &world) {
+    BlockSums total;
+    for (const BlockSums &block : world.sums) {
+        total.plastic += block.plastic;
+        total.bulk += block.bulk;
+        total.diffused += block.diffused;
+        total.spaced += block.spaced;
+        total.released += block.released;
+        total.total_power += block.total_power;
+        total.internal_power += block.internal_power;
+        total.unbalanced += block.unbalanced;
+        total.collision_loss += block.collision_loss;
+        total.side_walls += block.side_walls;
+        total.collisions += block.collisions;
+        total.kinetic += block.kinetic;
+        total.densest = std::max(total.densest, block.densest);
+    }
+    return total;
+}
+
+} // namespace
+
+void measure_velocities(World &world) {
+    measure_blocks(world);
+    bound_velocities(world, range_of_blocks(world));
 }
 
 namespace {
@@ -119,49 +154,15 @@ template <bool Adjoint> void close_books(World &world) {
         const int64_t i = contact.particle;
         const Vector force(contact.force_x, contact.force_y), reaction = -p.volume * force;
         world.walls.add_load(contact.facet, {p.x[i], p.y[i]}, reaction);
-        Plate &plate = world.walls.plates[world.walls.facets[contact.facet].plate];
-        plate.torque_pivot -= p.volume * contact.couple;
+        const int32_t id = world.walls.facets[contact.facet].plate;
+        const Plate &plate = world.walls.plates[id];
+        world.walls.add_couple(id, -p.volume * contact.couple);
         contact_power += p.volume * (contact.ghost_power + contact.power);
         plate_power -= reaction.dot(world.walls.velocity_at(contact.facet, {p.x[i], p.y[i]})) -
                        p.volume * contact.couple * plate.motion().omega;
     });
-    for (Plate &plate : world.walls.plates) {
-        plate.impulse += dt * plate.force;
-        plate.impulse_torque += dt * plate.torque_pivot;
-        if (plate.loaded())
-            plate.fall(dt, world.constants.plate_mass);
-    }
-
-    measure_velocities(world);
-    world.shifted += world.velocity_span * dt;
-    for (Plate &plate : world.walls.plates)
-        if (plate.gap > 0) {
-            const double approach = plate.fastest() + world.fastest;
-            plate.gap -= dt * approach;
-            if (plate.gap <= 0) { // it matters from the next step on, whose size a fast one limits
-                world.lists_valid = false;
-                if (approach * dt > flow_share * world.constants.spacing)
-                    world.velocity_span = std::max(world.velocity_span, approach);
-            }
-        }
-
-    BlockSums total;
-    for (const BlockSums &block : world.sums) {
-        total.plastic += block.plastic;
-        total.bulk += block.bulk;
-        total.diffused += block.diffused;
-        total.spaced += block.spaced;
-        total.released += block.released;
-        total.total_power += block.total_power;
-        total.internal_power += block.internal_power;
-        total.unbalanced += block.unbalanced;
-        total.collision_loss += block.collision_loss;
-        total.side_walls += block.side_walls;
-        total.collisions += block.collisions;
-        total.kinetic += block.kinetic;
-        total.densest = std::max(total.densest, block.densest);
-    }
-
+    measure_blocks(world);
+    BlockSums total = sum_of_blocks(world);
     const double penalty = Adjoint ? dt * (contact_power - total.internal_power - total.total_power) : 0.0;
     const double lost_at_walls = total.released + (Adjoint ? dt * (plate_power - contact_power) : 0.0);
 
@@ -176,6 +177,31 @@ template <bool Adjoint> void close_books(World &world) {
     ledger.spacing += total.spaced;
     ledger.collisions += total.collision_loss;
     ledger.side_walls += total.side_walls;
+
+    BlockRange range = range_of_blocks(world);
+    if (world.crossing)
+        combine_books(world, range, total);
+    world.walls.take_loads();
+    for (Plate &plate : world.walls.plates) {
+        plate.impulse += dt * plate.force;
+        plate.impulse_torque += dt * plate.torque_pivot;
+        if (plate.loaded())
+            plate.fall(dt, world.constants.plate_mass);
+    }
+
+    bound_velocities(world, range);
+    world.shifted += world.velocity_span * dt;
+    for (Plate &plate : world.walls.plates)
+        if (plate.gap > 0) {
+            const double approach = plate.fastest() + world.fastest;
+            plate.gap -= dt * approach;
+            if (plate.gap <= 0) { // it matters from the next step on, whose size a fast one limits
+                world.lists_valid = false;
+                if (approach * dt > flow_share * world.constants.spacing)
+                    world.velocity_span = std::max(world.velocity_span, approach);
+            }
+        }
+
     ledger.largest_kinetic = std::max(ledger.largest_kinetic, total.kinetic);
     world.max_compression = std::max(world.max_compression, total.densest - 1);
     world.collisions += total.collisions / 2;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "error.hpp"
+#include "parts.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -59,6 +60,13 @@ std::string fastest_of(const World &world) {
             fastest = speed;
             particle = i;
         }
+    std::string text;
+    if (p.count > 0)
+        text = format_text("the fastest particle is %lld at (%g, %g) m with (%g, %g) m/s",
+                           static_cast<long long>(p.id[particle]), p.x[particle], p.y[particle], p.vx[particle],
+                           p.vy[particle]);
+    if (world.crossing)
+        text = text_of_largest(*world.crossing, fastest, text);
     const std::vector<Plate> &plates = world.walls.plates;
     for (std::size_t k = 0; k < plates.size(); ++k)
         if (const double speed = plates[k].fastest(); speed > fastest && plates[k].gap <= speed * world.clock.dt) {
@@ -66,9 +74,7 @@ std::string fastest_of(const World &world) {
             return format_text("plate %zu moves at (%g, %g) m/s and %g rad/s, at most %g m/s", k, motion.velocity.x(),
                                motion.velocity.y(), motion.omega, speed);
         }
-    return format_text("the fastest particle is %lld at (%g, %g) m with (%g, %g) m/s",
-                       static_cast<long long>(p.id[particle]), p.x[particle], p.y[particle], p.vx[particle],
-                       p.vy[particle]);
+    return text;
 }
 
 } // namespace

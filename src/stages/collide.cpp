@@ -46,7 +46,7 @@ int64_t count_partners(const View &v, int64_t begin, int64_t end) {
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes partners{};
         int32_t j = v.clusters.first[c];
-        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.stop(c); k < stop; ++k) {
             j += v.clusters.step[k];
             const Lanes dx = x[j] - xi, dy = y[j] - yi;
             const Lanes r2 = dx * dx + dy * dy;
@@ -84,7 +84,7 @@ void find_pushes(const View &v, int64_t begin, int64_t end) {
         const bool partly = v.clusters.is_partly_seen(c);
         Lanes du{}, dv{};
         int32_t j = v.clusters.first[c];
-        for (int64_t k = v.clusters.start[c], stop = v.clusters.close_stop(c); k < stop; ++k) {
+        for (int64_t k = v.clusters.start[c], stop = v.clusters.stop(c); k < stop; ++k) {
             j += v.clusters.step[k];
             if (v.colliding[j] == 0)
                 continue;
@@ -114,7 +114,7 @@ void collide(World &world) {
     const double dt = world.clock.dt;
     update_images(world);
     // sigma K^-1 has done its work: its first row holds the velocity changes.
-    const View view{Clusters(world),
+    const View view{Clusters(world.clusters, world.clusters.close),
                     p.x.data(),
                     p.y.data(),
                     p.vx.data(),
@@ -133,7 +133,7 @@ void collide(World &world) {
     int64_t colliding = 0;
     for (const BlockSums &block : world.sums)
         colliding += block.collisions;
-    if (colliding == 0)
+    if (colliding == 0 && !world.crossing) // where there are others, they may have some, and wait
         return;
 
     world.images.copy(world.colliding);

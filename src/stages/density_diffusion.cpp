@@ -25,7 +25,7 @@ ExchangeView prepare_exchange(World &world) {
     Field<double> &excess = p.cxy, &bears = one ? p.bearing_flow : p.bearing;
     if (bears.empty()) // it has no memory of its own
         hand_over(p.ay, bears);
-    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
+    const auto make = [&](int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const MaterialConstants &m = world.material_of(i);
             const double over = p.density[i] - m.density, bearing = over > 0 ? 1.0 : 0.0;
@@ -39,10 +39,11 @@ ExchangeView prepare_exchange(World &world) {
                 p.inverse_rest[i] = 1.0 / m.density;
             }
         }
-    });
-    world.images.copy({&excess, &bears, &p.density});
-    if (!one)
-        world.images.copy({&p.rest, &p.inverse_rest});
+    };
+    if (one)
+        make_for_neighbors(world, {&excess, &bears, &p.density}, make);
+    else
+        make_for_neighbors(world, {&excess, &bears, &p.density, &p.rest, &p.inverse_rest}, make);
     ExchangeView view{};
     view.density = p.density.data();
     view.flowing = p.flowing.data();

@@ -25,7 +25,7 @@ double weight_of_flow(const World &world, int64_t i, double stress) {
 
 template <bool Fluid> void find_flowing(World &world) {
     Particles &p = world.particles;
-    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
+    make_for_neighbors(world, {&p.flowing}, [&](int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             const double stress = equivalent_stress({p.sxx[i], p.sxy[i]});
             if (Fluid && world.is_fluid(i))
@@ -44,7 +44,6 @@ void flowing(World &world) {
         find_flowing<true>(world);
     else
         find_flowing<false>(world);
-    world.images.copy(world.particles.flowing);
 }
 
 } // namespace gp::stages

@@ -33,13 +33,12 @@ FluidityView prepare_fluidity(World &world) {
     Particles &p = world.particles;
     if (p.bearing.empty()) // no density diffusion between several densities
         hand_over(p.ay, p.bearing);
-    for_each_seen_block(world, [&](int64_t, int64_t begin, int64_t end) {
+    make_for_neighbors(world, {&p.fluid_seen, &p.bearing}, [&](int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) {
             p.bearing[i] = p.pressure[i] > 0 ? 1.0 : 0.0;
             p.fluid_seen[i] = p.bearing[i] * p.fluidity[i];
         }
     });
-    world.images.copy({&p.fluid_seen, &p.bearing});
     return {p.fluid_seen.data(), p.bearing.data(), p.fluid_pull.data(), p.fluid_pace.data()};
 }
 

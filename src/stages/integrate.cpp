@@ -3,6 +3,7 @@
 
 #include "awake.hpp"
 #include "error.hpp"
+#include "parts.hpp"
 #include "stages/stages.hpp"
 #include "undo.hpp"
 
@@ -17,22 +18,8 @@ namespace {
                      static_cast<long long>(world.clock.step), world.clock.dt);
 }
 
-} // namespace
-
-// The stages leave a sum per block: what is looked at particle by particle is a step that may be bad.
-void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay) {
-    const double dt = world.clock.dt;
-    const double most = motion_bound * world.constants.spacing / (dt * dt); // m/s2
+void require_bounded_particles(const World &world, const Field<double> &ax, const Field<double> &ay, double most) {
     const Particles &p = world.particles;
-    std::atomic<bool> suspect{false};
-    // By all threads: one alone would wait for each line that the others have just written.
-    for_each_awake_block(world, [&](int64_t k, int64_t, int64_t) {
-        const BlockSums &block = world.sums[k];
-        if (block.unbounded || !(block.acceleration2 <= most * most))
-            suspect.store(true, std::memory_order_relaxed);
-    });
-    if (!suspect)
-        return;
     for (int64_t i = 0; i < p.count; ++i) {
         const double own = world.material_of(i).density;
         if (!is_bounded_density(p.density[i] / own))
@@ -49,6 +36,25 @@ void require_bounded_step(const World &world, const Field<double> &ax, const Fie
                      format_text("force: acceleration (%g, %g) m/s2, expected at most %g, a motion of %g dl in the "
                                  "step,",
                                  ax[i], ay[i], most, motion_bound));
+}
+
+} // namespace
+
+// The stages leave a sum per block: what is looked at particle by particle is a step that may be bad.
+void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay) {
+    const double dt = world.clock.dt;
+    const double most = motion_bound * world.constants.spacing / (dt * dt); // m/s2
+    std::atomic<bool> suspect{false};
+    // By all threads: one alone would wait for each line that the others have just written.
+    for_each_awake_block(world, [&](int64_t k, int64_t, int64_t) {
+        const BlockSums &block = world.sums[k];
+        if (block.unbounded || !(block.acceleration2 <= most * most))
+            suspect.store(true, std::memory_order_relaxed);
+    });
+    if (world.crossing)
+        require_bounded_everywhere(world, suspect, [&] { require_bounded_particles(world, ax, ay, most); });
+    else if (suspect)
+        require_bounded_particles(world, ax, ay, most);
 }
 
 void integrate(World &world) {

@@ -43,19 +43,16 @@ struct Rows {
 struct Clusters {
     const int32_t *first;
     const int64_t *start;
-    const int32_t *close;
     const int16_t *step;
     const uint8_t *partly_seen; // NULL where no plate has material behind it
     const uint8_t *seen_by;
 
-    explicit Clusters(const World &world)
-        : first(world.clusters.first.data()), start(world.clusters.start.data()), close(world.clusters.close.data()),
-          step(world.clusters.step.data()),
-          partly_seen(world.clusters.partly_seen.empty() ? nullptr : world.clusters.partly_seen.data()),
-          seen_by(world.clusters.seen_by.data()) {}
+    explicit Clusters(const World &world) : Clusters(world.clusters, world.clusters.all) {}
+    Clusters(const ClusterList &list, const ClusterRows &rows)
+        : first(list.first.data()), start(rows.start.data()), step(rows.step.data()),
+          partly_seen(list.partly_seen.empty() ? nullptr : list.partly_seen.data()), seen_by(rows.seen_by.data()) {}
 
     GP_INLINE int64_t stop(int64_t cluster) const { return start[cluster + 1]; }
-    GP_INLINE int64_t close_stop(int64_t cluster) const { return start[cluster] + close[cluster]; }
     GP_INLINE bool is_partly_seen(int64_t cluster) const { return partly_seen && partly_seen[cluster]; }
     // The weight of entry k, 0 in the lanes that do not see it.
     GP_INLINE Lanes seen(const Lanes &w, int64_t k) const { return seen_by_lanes(w, seen_by[k]); }

@@ -136,7 +136,7 @@ void link_blocks(World &world) {
     s.stamp.assign(static_cast<std::size_t>(blocks), -1);
     for (int64_t block = 0; block < blocks; ++block) {
         for (int32_t c = list.cluster_of_block[block]; c < list.cluster_of_block[block + 1]; ++c)
-            for_each_entry(list, c, list.start[c + 1], [&](int64_t, int32_t j) {
+            for_each_entry(list, list.all, c, [&](int64_t, int32_t j) {
                 const int64_t other = (j < count ? j : world.images.source(j)) / block_size;
                 if (s.stamp[other] == block)
                     return;
@@ -230,21 +230,17 @@ void sum_held_loads(World &world) {
     Walls &w = world.walls;
     const Particles &p = world.particles;
     std::vector<Plate> &plates = w.plates;
-    for (std::size_t k = 0; k < plates.size(); ++k)
-        s.held[k] = {plates[k].force, plates[k].torque, plates[k].torque_pivot};
-    w.clear_loads();
+    w.clear_loads(); // of a step that has not begun with them yet
     for (std::size_t k = 0; k < w.contacts.size(); ++k) {
         const Contact &contact = w.contacts[k];
         if (!p.asleep[contact.particle])
             continue;
         w.add_load(contact.facet, {p.x[contact.particle], p.y[contact.particle]}, {s.loads[k].x, s.loads[k].y});
-        plates[s.loads[k].plate].torque_pivot += s.loads[k].couple;
+        w.add_couple(s.loads[k].plate, s.loads[k].couple);
     }
-    for (std::size_t k = 0; k < plates.size(); ++k) {
-        std::swap(s.held[k].force, plates[k].force);
-        std::swap(s.held[k].torque, plates[k].torque);
-        std::swap(s.held[k].torque_pivot, plates[k].torque_pivot);
-    }
+    for (std::size_t k = 0; k < plates.size(); ++k)
+        s.held[k] = plates[k].load;
+    w.clear_loads();
 }
 
 void choose_work(World &world) {
@@ -420,12 +416,8 @@ void add_held_loads(World &world) {
     Walls &w = world.walls;
     if (world.sleep.all())
         w.clear_loads();
-    for (std::size_t k = 0; k < w.plates.size(); ++k) {
-        const HeldLoad &held = world.sleep.held[k];
-        w.plates[k].force += held.force;
-        w.plates[k].torque += held.torque;
-        w.plates[k].torque_pivot += held.torque_pivot;
-    }
+    for (std::size_t k = 0; k < w.plates.size(); ++k)
+        w.plates[k].load += world.sleep.held[k];
 }
 
 void remember_shape(World &world) {

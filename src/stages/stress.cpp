@@ -171,6 +171,21 @@ void stress_rows(World &world, bool one_material, int64_t begin, int64_t end, St
     sums = {sum_of(plastic), sum_of(internal), sum_of(damped)};
 }
 
+// What forces and, in the next step, ghosts and densities read of neighbours: all that is left of it in one message.
+void copy_to_images(World &world) {
+    Particles &p = world.particles;
+    const Images &images = world.images;
+    const bool penalty = world.constants.penalty > 0, fluid = world.constants.fluid;
+    if (penalty && fluid)
+        images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.sxx, &p.sxy, &p.stressed, &p.fluidity});
+    else if (penalty)
+        images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.sxx, &p.sxy, &p.stressed});
+    else if (fluid)
+        images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.sxx, &p.sxy, &p.fluidity});
+    else
+        images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.sxx, &p.sxy});
+}
+
 } // namespace
 
 void stress(World &world) {
@@ -199,14 +214,7 @@ void stress(World &world) {
         hand_over(p.gyy, p.stressed);
     if (world.sleep.may_rest)
         hold_stress(world);
-    world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
-    if (world.constants.penalty > 0)
-        world.images.copy(p.stressed);
-    if (world.walls.in_reach()) { // ghosts extrapolate from these
-        world.images.copy({&p.pressure, &p.density, &p.sxx, &p.sxy});
-        if (world.constants.fluid)
-            world.images.copy(p.fluidity);
-    }
+    copy_to_images(world);
 }
 
 } // namespace gp::stages

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -16,11 +17,13 @@ namespace {
 void wrap(World &world) {
     Particles &p = world.particles;
     const Period &period = world.constants.period;
+    double level = 0;
     for (int64_t i = 0; i < p.count; ++i)
         if (const double shift = period.shift_of(p.x[i]); shift != 0) {
             p.x[i] -= shift;
-            world.ledger.level -= world.material_of(i).density * p.volume * world.constants.gravity.x() * shift;
+            level -= world.material_of(i).density * p.volume * world.constants.gravity.x() * shift;
         }
+    world.ledger.level += world.crossing ? sum_of_all(world, level) : level;
     for (Plate &plate : world.walls.plates)
         plate.wrap(period, world.clock.time);
 }
@@ -35,6 +38,18 @@ constexpr double cell_width = 1, cell_height = 2;
 
 // Of the particles about a ghost's mirror point, in dl: one of a dense set is always within a spacing.
 constexpr double mirror_reach = 1.5;
+
+// The cells for all particles, whoever works on them.
+CellFrame find_frame(World &world) {
+    world.box = box_of(world.particles);
+    if (world.crossing) {
+        double far[4] = {-world.box.x_min, world.box.x_max, -world.box.y_min, world.box.y_max};
+        world.crossing->combine(far, 4, nullptr, 0);
+        world.box = {-far[0], far[1], -far[2], far[3]};
+    }
+    const Constants &c = world.constants;
+    return {world.box, c.period, cell_width * c.spacing, cell_height * c.spacing};
+}
 
 } // namespace
 
@@ -62,7 +77,10 @@ void make_lists(World &world) {
     const double close = world.scene->config().collision_distance * c.spacing + world.skin;
     const double tolerance = 1e-9 * c.spacing;
     world.lists_whole = world.lists_valid = false;
-    world.grid.sort(world.particles, cell_width * c.spacing, cell_height * c.spacing, world.threads);
+    const CellFrame frame = find_frame(world);
+    if (world.crossing)
+        go_to_owners(world, frame);
+    world.grid.sort(world.particles, frame, world.threads);
     const Particles &p = world.particles;
     ListOrigin &origin = world.list_origin;
     origin.x.assign(p.x.begin(), p.x.begin() + p.count);
@@ -70,21 +88,31 @@ void make_lists(World &world) {
     origin.plates.clear();
     for (const Plate &plate : world.walls.plates)
         origin.plates.push_back(plate.state());
-    if (c.period) {
-        // Ghosts up to `radius` beyond the ends extrapolate from what is within `radius` of them.
-        world.images.make(world.particles, c.period, 2 * radius);
-        if (!world.colliding.empty())
-            world.colliding.resize(world.particles.count + world.images.count);
+    // Ghosts up to `radius` beyond the particles extrapolate from what is within `radius` of them.
+    if (world.crossing) {
+        world.halo->find(world.particles, frame, c.period, 2 * radius);
+        world.images.make(world.particles, world.grid, *world.halo);
+    } else if (c.period) {
+        world.images.make(world.particles, world.grid, c.period, 2 * radius);
     }
-    find_clusters(world.particles, world.grid, world.images, radius, close,
-                  world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads, world.clusters);
+    if (!world.colliding.empty() && (world.crossing || c.period))
+        world.colliding.resize(std::max<int64_t>(1, world.particles.count + world.images.count));
+    const Barriers &barriers = world.walls.barriers(world.particles, world.grid, radius, world.crossing);
+    const auto find = [&] {
+        find_clusters(world.particles, world.grid, world.images, radius, close, barriers, tolerance, world.threads,
+                      world.clusters);
+    };
+    if (world.crossing)
+        require_bounded_everywhere(world, true, find);
+    else
+        find();
     if (c.scheme != Scheme::adjoint)
         find_neighbors(world.particles, world.clusters, radius, world.threads, world.neighbors);
-    world.walls.find_contacts(world.particles, world.grid, world.images, radius, c.reach, c.spacing,
+    world.walls.find_contacts(world.particles, world.grid, world.images, world.box, radius, c.reach, c.spacing,
                               !by_number_density(c.scheme), world.threads);
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
-    world.walls.lanes.make(world.walls, world.clusters);
+    world.walls.lanes.make(world.walls, world.clusters, world.grid, world.images);
     if (c.scheme == Scheme::implicit)
         world.mirrors.find(world.walls, world.particles, world.grid, world.images,
                            mirror_reach * c.spacing + world.skin);
@@ -93,9 +121,8 @@ void make_lists(World &world) {
 }
 
 void update_images(World &world) {
-    Particles &p = world.particles;
-    world.images.copy_positions(p);
-    world.images.copy({&p.vx, &p.vy});
+    if (world.images.in_use())
+        world.images.copy_motion(world.particles);
 }
 
 } // namespace gp::stages

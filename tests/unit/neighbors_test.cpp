@@ -91,17 +91,22 @@ TEST(Neighbors, AgreeWithBruteForce) {
                 if (i != j && std::hypot(x[i] - x[j], y[i] - y[j]) < radius)
                     expected.insert({i, j});
         EXPECT_EQ(listed_pairs(world), expected);
-        // Those that may collide with one of a cluster come first in its row.
+        // Those that may collide with one of a cluster are in a row of their own, too.
         const ClusterList &clusters = world.clusters;
         const double close = 0.9 + world.skin;
-        for (int64_t c = 0; c < clusters.count(); ++c)
-            for_each_entry(clusters, c, clusters.start[c + 1], [&](int64_t k, int32_t j) {
+        for (int64_t c = 0; c < clusters.count(); ++c) {
+            std::vector<int32_t> near, listed;
+            for_each_entry(clusters, clusters.all, c, [&](int64_t, int32_t j) {
                 double nearest = INFINITY;
                 for (int64_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i)
                     nearest = std::min(nearest, distance(world, i, j));
                 EXPECT_LT(nearest, radius);
-                EXPECT_EQ(k < clusters.start[c] + clusters.close[c], nearest < close);
+                if (nearest < close)
+                    near.push_back(j);
             });
+            for_each_entry(clusters, clusters.close, c, [&](int64_t, int32_t j) { listed.push_back(j); });
+            EXPECT_EQ(listed, near);
+        }
         // The rows of single particles hold the same.
         NeighborList rows;
         find_neighbors(world.particles, clusters, radius, 1, rows);
@@ -131,7 +136,7 @@ TEST(Neighbors, AreFoundFartherThanAStep) {
     for (int64_t c = 0; c < world.clusters.count(); c += 97) {
         const int64_t first = world.clusters.first[c];
         std::set<int64_t> seen, expected;
-        for_each_entry(world.clusters, c, world.clusters.start[c + 1], [&](int64_t, int32_t j) {
+        for_each_entry(world.clusters, world.clusters.all, c, [&](int64_t, int32_t j) {
             ASSERT_GE(j, 0);
             ASSERT_LT(j, p.count);
             if (distance(world, first, j) < radius) {

@@ -1,0 +1,45 @@
+# The library for several processes, granperi-mpi, and its program: the same engine, with the files of src/mpi in place of
+# src/without_mpi.cpp.
+find_package(MPI REQUIRED COMPONENTS C CXX)
+find_path(GRANPERI_ZOLTAN_INCLUDE_DIR zoltan.h PATH_SUFFIXES trilinos)
+find_library(GRANPERI_ZOLTAN_LIBRARY NAMES trilinos_zoltan zoltan)
+if(NOT GRANPERI_ZOLTAN_INCLUDE_DIR OR NOT GRANPERI_ZOLTAN_LIBRARY)
+  message(FATAL_ERROR "GRANPERI_MPI=ON needs Zoltan (Debian: libtrilinos-zoltan-dev; scripts/install-dependencies mpi)")
+endif()
+
+function(granperi_make_mpi_objects target)
+  add_library(${target} OBJECT src/mpi/mpi_api.cpp src/mpi/mpi_crossing.cpp src/mpi/zoltan_cut.cpp)
+  granperi_compile_engine(${target})
+  target_compile_definitions(${target} PRIVATE GP_WITH_MPI OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_include_directories(${target} SYSTEM PRIVATE ${MPI_C_INCLUDE_DIRS} ${GRANPERI_ZOLTAN_INCLUDE_DIR})
+endfunction()
+
+granperi_make_mpi_objects(granperi_mpi_objects)
+target_compile_options(granperi_mpi_objects PRIVATE ${GRANPERI_MARCH})
+add_library(granperi_mpi_interface OBJECT src/load_symbol.cpp)
+granperi_compile_engine(granperi_mpi_interface)
+set(GRANPERI_MPI_ENGINE "")
+if(GRANPERI_LEVELS)
+  granperi_make_mpi_objects(granperi_mpi_objects_v3)
+  target_compile_options(granperi_mpi_objects_v3 PRIVATE -march=x86-64-v3)
+  target_sources(granperi_mpi_interface PRIVATE src/levels/dispatch.cpp)
+  target_compile_definitions(granperi_mpi_interface PRIVATE GP_WITH_MPI OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_include_directories(granperi_mpi_interface SYSTEM PRIVATE ${MPI_C_INCLUDE_DIRS})
+  granperi_make_level(base granperi_objects granperi_mpi_objects GRANPERI_MPI_ENGINE)
+  granperi_make_level(v3 granperi_objects_v3 granperi_mpi_objects_v3 GRANPERI_MPI_ENGINE)
+else()
+  set(GRANPERI_MPI_ENGINE $<TARGET_OBJECTS:granperi_objects> $<TARGET_OBJECTS:granperi_mpi_objects>)
+endif()
+
+add_library(granperi_mpi SHARED ${GRANPERI_MPI_ENGINE} $<TARGET_OBJECTS:granperi_mpi_interface>)
+add_library(granperi::granperi_mpi ALIAS granperi_mpi)
+set_target_properties(granperi_mpi PROPERTIES OUTPUT_NAME granperi-mpi VERSION ${PROJECT_VERSION} SOVERSION ${GRANPERI_SOVERSION}
+                                              LINKER_LANGUAGE CXX LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/granperi.map)
+target_link_options(granperi_mpi PRIVATE "LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/granperi.map" "LINKER:--as-needed"
+                                         "LINKER:-z,nodelete")
+target_include_directories(granperi_mpi PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_link_libraries(granperi_mpi PUBLIC MPI::MPI_C PRIVATE ${GRANPERI_ZOLTAN_LIBRARY} ${GRANPERI_PRIVATE_LIBRARIES})
+if(GRANPERI_HDF5)
+  target_link_libraries(granperi_mpi PRIVATE ${HDF5_C_LIBRARIES})
+endif()

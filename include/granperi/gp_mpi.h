@@ -1,0 +1,43 @@
+/* granperi on several processes: library granperi-mpi (pkg-config granperi-mpi, CMake component mpi), which has all that
+ * granperi/gp.h declares and these two. A program links it in place of granperi, not beside it.
+ *
+ * A simulation of gp_create_mpi or gp_load_mpi belongs to all processes of the communicator: each has a part of the particles. All
+ * of them make the same gp_ calls, in the same order and with the same arguments, but for
+ *   gp_add_particles   each process adds its own, n may be 0; ids go on from process to process;
+ *   gp_get_particles   each process sees those that it works on, which change whenever neighbour lists are made;
+ *   gp_copy_field      the first process gets all, in the order of id; the others pass NULL and n = 0;
+ *   gp_set_log         messages come on the first process; those about a running flow (gp_set_log) do not come;
+ *   callbacks          are called on each process, and have to return the same everywhere.
+ * States, loads, surfaces and interfaces are those of the whole, on every process; for them, for gp_save and for frames the first
+ * process puts the whole together, with about 300 bytes for each particle. Files are written by the first process, in the
+ * layout of a process alone: either goes on from the other's, on any number of processes.
+ *
+ * Positions, velocities, stresses, loads and the clock are the same bits on any number of processes and threads; the energies
+ * of gp_state that are summed up in the course of a run are the same but for rounding.
+ *
+ * Errors come everywhere with one text, but for GP_E_MEMORY and GP_E_INTERNAL: after these a process may be alone with its error
+ * while others wait for it, and MPI_Abort is what is left. gp_config.sleep, the implicit scheme and the paper's schemes are
+ * GP_E_UNSUPPORTED. */
+#ifndef GRANPERI_GP_MPI_H
+#define GRANPERI_GP_MPI_H
+
+#include <mpi.h>
+
+#include "gp.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Collective, as gp_create. MPI has been initialised, with MPI_THREAD_FUNNELED for gp_config.threads other than 1, and is
+ * finalised after gp_destroy. The communicator is copied. */
+GP_API gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim);
+
+/* Collective, as gp_load: of a checkpoint by any number of processes, which every process can read. */
+GP_API gp_status gp_load_mpi(const char *path, MPI_Comm comm, gp_sim **sim);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,78 @@
+// What a gp_sim is, and what its calls have in common: for the files with extern "C" functions.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <stdexcept>
+
+#include "check.hpp"
+#include "entry.hpp"
+#include "error.hpp"
+#include "io/output.hpp"
+#include "sim.hpp"
+
+struct gp_sim {
+    explicit gp_sim(const gp_config &config, std::unique_ptr<gp::Crossing> crossing = nullptr)
+        : sim(config, std::move(crossing)) {}
+
+    gp::Sim sim;
+    std::unique_ptr<gp::io::Output> output; // of several processes, the first one's
+    std::unique_ptr<gp::FrameSink> frames;  // while an output is open: what writes to it, each process's own
+    gp::io::OutputPosition left_off; // of a checkpoint that this was loaded from, until an output is open again
+
+    // What views point to, and the last measured state; good while the epoch is the same.
+    gp::Field<double> derived[15];
+    gp_state state{};
+    uint32_t state_parts = 0;
+    uint64_t state_epoch = std::numeric_limits<uint64_t>::max();
+};
+
+namespace gp {
+
+// Runs body, with the host's environment put aside, and turns what it throws into a status and a text.
+template <class Body> gp_status guard(const Body &body) noexcept {
+    const Entry entry;
+    try {
+        return body();
+    } catch (const Error &error) {
+        set_last_error(error.what());
+        return error.status();
+    } catch (const std::bad_alloc &) {
+        set_last_error("out of memory");
+        return GP_E_MEMORY;
+    } catch (const std::length_error &) {
+        set_last_error("out of memory");
+        return GP_E_MEMORY;
+    } catch (const std::exception &error) {
+        set_last_error(error.what());
+        return GP_E_INTERNAL;
+    } catch (...) {
+        set_last_error("unknown exception");
+        return GP_E_INTERNAL;
+    }
+}
+
+// The struct that the caller means: an older, shorter one is completed with defaults; a newer one is understood as long
+// as what this version does not know is zero.
+template <class T> T complete(const T *given, const T &defaults, const char *name) {
+    require_pointer(name, given);
+    uint32_t size;
+    std::memcpy(&size, given, sizeof size);
+    if (size < 2 * sizeof(uint32_t) || size > 65536) // an uninitialised one must not be read past its end
+        throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected the size that %s_init sets", name, size, name);
+    T whole = defaults;
+    std::memcpy(static_cast<void *>(&whole), given, std::min<std::size_t>(size, sizeof(T)));
+    whole.struct_size = sizeof(T);
+    const auto *bytes = reinterpret_cast<const unsigned char *>(given);
+    for (std::size_t k = sizeof(T); k < size; ++k)
+        if (bytes[k] != 0)
+            throw make_error(GP_E_VERSION,
+                             "%s.struct_size = %u: sets a field that this version (%zu bytes) does not know", name,
+                             size, sizeof(T));
+    return whole;
+}
+
+} // namespace gp

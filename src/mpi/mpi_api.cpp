@@ -1,0 +1,66 @@
+// The extern "C" file of gp_mpi.h.
+#include "granperi/gp_mpi.h"
+
+#include "handle.hpp"
+#include "io/checkpoint.hpp"
+#include "level.hpp"
+#include "mpi/mpi_crossing.hpp"
+#include "scene.hpp"
+
+namespace gp {
+
+const bool has_mpi = true;
+
+namespace {
+
+void require_communicator(MPI_Comm comm) {
+    int begun = 0, ended = 0;
+    MPI_Initialized(&begun);
+    MPI_Finalized(&ended);
+    if (!begun || ended)
+        throw make_error(GP_E_STATE, "MPI %s: expected a call between MPI_Init and MPI_Finalize",
+                         begun ? "has been finalised" : "has not been initialised");
+    if (comm == MPI_COMM_NULL)
+        throw make_error(GP_E_ARGUMENT, "comm = MPI_COMM_NULL: expected a communicator");
+}
+
+} // namespace
+} // namespace gp
+
+extern "C" {
+
+gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim) {
+    using namespace gp;
+    return guard([&] {
+        require_pointer("sim", sim);
+        *sim = nullptr;
+        require_level();
+        require_communicator(comm);
+        const gp_config whole = complete(config, default_config(GP_PRESET_DEFAULT), "gp_config");
+        *sim = new gp_sim(whole, std::make_unique<mpi::MpiCrossing>(comm));
+        return GP_OK;
+    });
+}
+
+gp_status gp_load_mpi(const char *path, MPI_Comm comm, gp_sim **sim) {
+    using namespace gp;
+    return guard([&] {
+        require_pointer("sim", sim);
+        *sim = nullptr;
+        require_pointer("path", path);
+        require_level();
+        require_communicator(comm);
+        std::unique_ptr<gp_sim> loaded;
+        const auto create = [&](const gp_config &config) -> Sim & {
+            loaded = std::make_unique<gp_sim>(config, std::make_unique<mpi::MpiCrossing>(comm));
+            return loaded->sim;
+        };
+        io::OutputPosition left_off;
+        io::load_checkpoint(path, create, left_off);
+        loaded->left_off = std::move(left_off);
+        *sim = loaded.release();
+        return GP_OK;
+    });
+}
+
+} // extern "C"

@@ -1,0 +1,209 @@
+#include "parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "error.hpp"
+
+namespace gp {
+
+namespace {
+
+// One over the unit of energies that are added up: a 2^60th of what the material of a spacing stores under the pressure rho c0^2.
+double energy_scale(const World &world) {
+    return world.walls.load_scale.torque;
+}
+
+std::initializer_list<double Ledger::*> sums_of_ledger() {
+    static constexpr std::initializer_list<double Ledger::*> sums = {
+        &Ledger::dissipated, &Ledger::penalty,    &Ledger::walls,      &Ledger::diffusion,  &Ledger::spacing,
+        &Ledger::bulk,       &Ledger::collisions, &Ledger::side_walls, &Ledger::plate_work};
+    return sums;
+}
+
+// Numbers to be added up over all processes: put in, combined, taken out in the same order.
+class Sums {
+public:
+    void put(const ExactSum &sum) { wholes.push_back(sum.whole()); }
+    void put(double value, double scale) {
+        ExactSum sum;
+        sum.add(value, scale);
+        put(sum);
+    }
+    void take(ExactSum &sum) { sum.set_whole(wholes[next_++]); }
+    double take(double scale) {
+        ExactSum sum;
+        take(sum);
+        return sum.value(scale);
+    }
+    std::vector<Whole> wholes;
+
+private:
+    std::size_t next_ = 0;
+};
+
+} // namespace
+
+double sum_of_all(const World &world, double energy) {
+    Sums sums;
+    sums.put(energy, energy_scale(world));
+    world.crossing->combine(nullptr, 0, sums.wholes.data(), 1);
+    return sums.take(energy_scale(world));
+}
+
+void combine_books(World &world, BlockRange &range, BlockSums &total) {
+    const double energy = energy_scale(world);
+    const Ledger &before = world.step_start.ledger;
+    double largest[5] = {-range.u_min, range.u_max, -range.v_min, range.v_max, total.densest};
+    Sums sums;
+    for (Plate &plate : world.walls.plates)
+        for (const ExactSum *load : plate.load.all())
+            sums.put(*load);
+    for (double Ledger::*sum : sums_of_ledger())
+        sums.put(world.ledger.*sum - before.*sum, energy);
+    const double mass = std::exp2(60 - std::ilogb(world.mass));
+    sums.put(total.kinetic, energy);
+    sums.put(total.plastic, energy);
+    sums.put(total.unbalanced, mass);
+    sums.wholes.push_back(total.collisions);
+    world.crossing->combine(largest, 5, sums.wholes.data(), static_cast<int>(sums.wholes.size()));
+    range = {-largest[0], largest[1], -largest[2], largest[3]};
+    total.densest = largest[4];
+    for (Plate &plate : world.walls.plates)
+        for (ExactSum *load : plate.load.all())
+            sums.take(*load);
+    for (double Ledger::*sum : sums_of_ledger())
+        world.ledger.*sum = before.*sum + sums.take(energy);
+    total.kinetic = sums.take(energy);
+    total.plastic = sums.take(energy);
+    total.unbalanced = sums.take(mass);
+    total.collisions = static_cast<int64_t>(sums.wholes.back());
+}
+
+// ----------------------------------------------------------------------------------------------------- errors
+
+std::string text_of_largest(Crossing &crossing, double &value, const std::string &text) {
+    double largest = value;
+    crossing.combine(&largest, 1, nullptr, 0);
+    double first = value == largest ? static_cast<double>(-crossing.rank()) : -INFINITY;
+    crossing.combine(&first, 1, nullptr, 0);
+    value = largest;
+    const int from = static_cast<int>(-first);
+    auto size = static_cast<int64_t>(text.size());
+    crossing.broadcast(&size, sizeof size, from);
+    std::string chosen = text;
+    chosen.resize(static_cast<std::size_t>(size));
+    crossing.broadcast(chosen.data(), size, from);
+    return chosen;
+}
+
+void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {
+    std::string text;
+    if (suspect)
+        try {
+            look();
+        } catch (const Error &error) {
+            text = error.what();
+        }
+    const double own = text.empty() ? 0 : 1;
+    double diverged = own;
+    world.crossing->combine(&diverged, 1, nullptr, 0);
+    if (diverged > 0)
+        throw Error(GP_E_DIVERGED, text_of_largest(*world.crossing, diverged = own, text));
+}
+
+// -------------------------------------------------------------------------------------------------- migration
+
+namespace {
+
+// Work of the busiest process over the mean, from which on the cells are dealt out anew.
+constexpr double most_uneven = 1.05;
+
+void deal_out_anew(World &world, const CellFrame &frame) {
+    Particles &p = world.particles;
+    std::vector<double> x(p.count), y(p.count);
+    for (int64_t i = 0; i < p.count; ++i) {
+        const Vector middle = frame.middle_of(frame.cell_of(p.x[i], p.y[i]));
+        x[i] = middle.x();
+        y[i] = middle.y();
+    }
+    world.crossing->cut(p.count, x.data(), y.data(), world.share.work > 0 ? world.share.work : static_cast<double>(p.count));
+}
+
+// Has the work of the processes since the last time become uneven?
+bool is_uneven(World &world) {
+    const double work = world.share.work;
+    double most = work;
+    constexpr double scale = 0x1p40; // 1/s
+    Sums sums;
+    sums.put(work, scale);
+    world.crossing->combine(&most, 1, sums.wholes.data(), 1);
+    const double all = sums.take(scale);
+    return most * world.crossing->ranks() > most_uneven * all;
+}
+
+} // namespace
+
+std::vector<Field<double> *> carried_fields(Particles &p) {
+    std::vector<Field<double> *> fields = {&p.x,   &p.y,   &p.vx,  &p.vy,  &p.density, &p.pressure,
+                                           &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx,     &p.lyy};
+    if (!p.fluidity.empty())
+        fields.push_back(&p.fluidity);
+    return fields;
+}
+
+void go_to_owners(World &world, const CellFrame &frame) {
+    Crossing &crossing = *world.crossing;
+    Particles &p = world.particles;
+    PartShare &share = world.share;
+    if (!share.dealt || (++share.lists >= share.lists_between && is_uneven(world))) {
+        deal_out_anew(world, frame);
+        share = {};
+        share.dealt = true;
+    }
+    const std::vector<Field<double> *> fields = carried_fields(p);
+    std::vector<std::vector<double>> out(static_cast<std::size_t>(crossing.ranks())), in;
+    int64_t kept = 0;
+    for (int64_t i = 0; i < p.count; ++i) {
+        const Vector middle = frame.middle_of(frame.cell_of(p.x[i], p.y[i]));
+        const int owner = crossing.owner(middle.x(), middle.y());
+        if (owner == crossing.rank()) {
+            p.id[kept] = p.id[i];
+            p.column[kept] = p.column[i];
+            for (Field<double> *field : fields)
+                (*field)[kept] = (*field)[i];
+            ++kept;
+            continue;
+        }
+        std::vector<double> &to = out[owner];
+        to.push_back(static_cast<double>(p.id[i]));
+        to.push_back(static_cast<double>(p.column[i]));
+        for (const Field<double> *field : fields)
+            to.push_back((*field)[i]);
+    }
+    crossing.deal(out, in);
+    const std::size_t numbers = fields.size() + 2;
+    int64_t count = kept;
+    for (const std::vector<double> &from : in)
+        count += static_cast<int64_t>(from.size() / numbers);
+    resize_part(world, count);
+    for (const std::vector<double> &from : in)
+        for (const double *r = from.data(), *end = r + from.size(); r != end; ++kept) {
+            p.id[kept] = static_cast<int64_t>(*r++);
+            p.column[kept] = static_cast<int32_t>(*r++);
+            for (Field<double> *field : fields)
+                (*field)[kept] = *r++;
+        }
+}
+
+void resize_part(World &world, int64_t count) {
+    world.particles.resize(count);
+    const int64_t blocks = block_count(count);
+    world.sums.assign(static_cast<std::size_t>(blocks), BlockSums());
+    world.ranges.assign(static_cast<std::size_t>(blocks), BlockRange{INFINITY, -INFINITY, INFINITY, -INFINITY});
+    if (!world.colliding.empty())
+        world.colliding.resize(static_cast<std::size_t>(std::max<int64_t>(1, count)));
+}
+
+} // namespace gp

@@ -1,0 +1,289 @@
+/* Scenes on as many processes as MPI gives, beside the same scene on one: fields, clock, loads have to be equal.
+ *
+ *   mpirun -n N same_values [scene [threads]]   all scenes without one; prints what differs, and returns 1 if something does. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <granperi/gp_mpi.h>
+
+static int rank, ranks, threads = 1, failures;
+
+static void check(gp_status status, const char *what) {
+    if (status < 0) {
+        fprintf(stderr, "rank %d: %s: %s: %s\n", rank, what, gp_status_string(status), gp_last_error());
+        MPI_Abort(MPI_COMM_WORLD, 2);
+    }
+}
+
+static void add_column(gp_sim *sim, double x, double y, double width, double height, int32_t material, double vx, double vy) {
+    gp_column c;
+    check(gp_column_init(&c, sizeof c), "gp_column_init");
+    c.x_min = x, c.y_min = y, c.width = width, c.height = height, c.material = material, c.vx = vx, c.vy = vy;
+    check(gp_add_column(sim, &c, NULL), "gp_add_column");
+}
+
+static gp_plate a_plate(double x0, double y0, double x1, double y1) {
+    gp_plate p;
+    check(gp_plate_init(&p, sizeof p), "gp_plate_init");
+    p.x0 = x0, p.y0 = y0, p.x1 = x1, p.y1 = y1;
+    return p;
+}
+
+static void add_plate(gp_sim *sim, const gp_plate *p) {
+    check(gp_add_plate(sim, p, NULL), "gp_add_plate");
+}
+
+static void floor_of(gp_sim *sim, double left, double right) {
+    const gp_plate p = a_plate(right, 0, left, 0);
+    add_plate(sim, &p);
+}
+
+typedef struct {
+    const char *name;
+    void (*config)(gp_config *);
+    void (*build)(gp_sim *);
+    int steps;
+} scene;
+
+static void fine(gp_config *c) { c->spacing = 0.0025; }
+static void collapse(gp_sim *s) { add_column(s, -0.04, 0, 0.08, 0.05, 0, 0, 0), floor_of(s, -1, 1); }
+
+static void incline(gp_config *c) {
+    const double angle = 26 * acos(-1.0) / 180;
+    c->spacing = 0.004;
+    c->periodic_x_min = 0.01, c->periodic_x_max = 0.17;
+    c->gravity_x = 9.81 * sin(angle), c->gravity_y = -9.81 * cos(angle);
+    c->jitter = 0.2, c->seed = 3;
+}
+static void chute(gp_sim *s) { add_column(s, 0.01, 0, 0.16, 0.05, 0, 0.3, 0), floor_of(s, 0.01, 0.17); }
+
+/* A loaded rough lid sheared over a layer between a smooth and a rubbing wall. */
+static void box(gp_sim *s) {
+    add_column(s, 0, 0, 0.08, 0.04, 0, 0, 0);
+    floor_of(s, 0, 0.08);
+    gp_plate p = a_plate(0, 0, 0, 0.08);
+    p.friction = GP_WALL_FREE_SLIP;
+    add_plate(s, &p);
+    p = a_plate(0.08, 0.08, 0.08, 0);
+    p.friction = GP_WALL_COULOMB, p.wall_mu = 0.3;
+    add_plate(s, &p);
+    p = a_plate(-0.02, 0.04, 0.10, 0.04);
+    p.vx = 0.2, p.normal_pressure = 500;
+    add_plate(s, &p);
+}
+
+static void coarse(gp_config *c) { c->spacing = 0.004; }
+static void lifted(gp_sim *s) {
+    static const double t[] = {0, 0.01, 0.05}, x[] = {0, 0, 0}, y[] = {0, 0.004, 0.3};
+    add_column(s, 0, 0, 0.12, 0.08, 0, 0, 0);
+    floor_of(s, -1, 1);
+    gp_plate p = a_plate(0, 0, 0, 0.2);
+    add_plate(s, &p);
+    p = a_plate(0.12, 0.2, 0.12, 0);
+    p.n_knots = 3, p.knot_t = t, p.knot_x = x, p.knot_y = y;
+    add_plate(s, &p);
+}
+
+/* A ring that turns, of 24 facets. */
+static void drum(gp_sim *s) {
+    enum { n = 24 };
+    double x[n + 1], y[n + 1];
+    for (int k = 0; k <= n; ++k) {
+        x[k] = 0.08 * cos(-2 * acos(-1.0) * (k % n) / n);
+        y[k] = 0.08 * sin(-2 * acos(-1.0) * (k % n) / n);
+    }
+    add_column(s, -0.05, -0.055, 0.1, 0.05, 0, 0, 0);
+    gp_plate p = a_plate(0, 0, 1, 0);
+    p.n_points = n + 1, p.point_x = x, p.point_y = y, p.omega = 2;
+    add_plate(s, &p);
+}
+
+static void hopper(gp_sim *s) {
+    const double xl[] = {-0.01, -0.05, -0.05}, yl[] = {0.0, 0.05, 0.2}, xr[] = {0.05, 0.05, 0.01}, yr[] = {0.2, 0.05, 0.0};
+    add_column(s, -0.05, 0.06, 0.1, 0.08, 0, 0, -0.2);
+    gp_plate p = a_plate(0, 0, 1, 0);
+    p.n_points = 3, p.point_x = xl, p.point_y = yl;
+    add_plate(s, &p);
+    p.point_x = xr, p.point_y = yr;
+    add_plate(s, &p);
+    p = a_plate(0.5, -0.1, -0.5, -0.1);
+    add_plate(s, &p);
+}
+
+static void two_materials(gp_sim *s) {
+    gp_material m;
+    check(gp_material_init(&m, sizeof m), "gp_material_init");
+    m.grain_density = 4000, m.grain_diameter = 0.001;
+    check(gp_add_material(s, &m, NULL), "gp_add_material");
+    add_column(s, -0.08, 0, 0.08, 0.06, 0, 0, 0);
+    add_column(s, 0, 0, 0.08, 0.08, 1, 0, 0);
+    floor_of(s, -1, 1);
+}
+
+static void fluid(gp_sim *s) {
+    gp_material m;
+    check(gp_material_init(&m, sizeof m), "gp_material_init");
+    m.nonlocal_amplitude = 0.48;
+    check(gp_add_material(s, &m, NULL), "gp_add_material");
+    add_column(s, -0.08, 0, 0.16, 0.06, 1, 0, 0);
+    gp_plate p = a_plate(1, 0, -1, 0);
+    p.fluidity = GP_FLUIDITY_ZERO;
+    add_plate(s, &p);
+}
+
+static void channel(gp_config *c) { c->spacing = 0.004, c->channel_width = 0.05, c->channel_friction = 0.2; }
+
+/* Grains that fly far away, and a thin layer: ranks thinner than what they see of each other. */
+static void fragments(gp_sim *s) {
+    const double x[] = {-0.3, 30, 31, 0.7, 0.7004}, y[] = {0.1, 40, 41, 0.01, 0.013}, vx[] = {1, 3, 3, 0, 0}, vy[] = {0, 1, 1, 0, 0};
+    add_column(s, -0.04, 0, 0.08, 0.04, 0, 0, 0);
+    check(gp_add_particles(s, 0, rank == 0 ? 5 : 0, x, y, vx, vy, NULL), "gp_add_particles");
+    floor_of(s, -1, 1);
+}
+
+static void few(gp_config *c) { c->spacing = 0.01; }
+static void handful(gp_sim *s) { add_column(s, -0.01, 0.01, 0.02, 0.03, 0, 0.1, -0.5), floor_of(s, -1, 1); }
+
+/* Plates with material behind them, that hide it. */
+static void wall_within(gp_sim *s) {
+    add_column(s, -0.08, 0, 0.078, 0.08, 0, 0, 0);
+    add_column(s, 0.002, 0, 0.08, 0.04, 0, 0, 0);
+    floor_of(s, -1, 1);
+    gp_plate p = a_plate(0, 0, 0, 0.2);
+    add_plate(s, &p);
+    p = a_plate(0, 0.2, 0, 0);
+    add_plate(s, &p);
+}
+
+static void blow(gp_config *c) { c->spacing = 0.004, c->sound_speed = 4, c->retry_halvings = 4, c->time_step = 0.0008, c->allow_unstable_step = 1; }
+static void thrown(gp_sim *s) { add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -2.5), floor_of(s, -1, 1); }
+
+static const scene scenes[] = {
+    {"collapse", fine, collapse, 600}, {"chute", incline, chute, 500},        {"box", coarse, box, 500},
+    {"lifted", coarse, lifted, 500},   {"drum", coarse, drum, 500},           {"hopper", coarse, hopper, 500},
+    {"two", coarse, two_materials, 400}, {"fluid", coarse, fluid, 400},       {"channel", channel, collapse, 500},
+    {"fragments", coarse, fragments, 500}, {"handful", few, handful, 400},    {"within", coarse, wall_within, 400},
+    {"thrown", blow, thrown, 200},
+};
+
+static gp_sim *make(const scene *s, int alone) {
+    gp_config c;
+    gp_sim *sim;
+    check(gp_config_init(&c, sizeof c, GP_PRESET_DEFAULT), "gp_config_init");
+    c.threads = alone ? 1 : threads;
+    s->config(&c);
+    if (alone)
+        check(gp_create(&c, &sim), "gp_create");
+    else
+        check(gp_create_mpi(&c, MPI_COMM_WORLD, &sim), "gp_create_mpi");
+    return sim;
+}
+
+static gp_state state_of(gp_sim *sim) {
+    gp_state state;
+    memset(&state, 0, sizeof state);
+    state.struct_size = sizeof state;
+    check(gp_get_state(sim, &state), "gp_get_state");
+    return state;
+}
+
+static void differ(const scene *s, const char *what, double alone, double together) {
+    if (failures++ < 20)
+        printf("%s on %d: %s: %.17g alone, %.17g together\n", s->name, ranks, what, alone, together);
+}
+
+static void equal(const scene *s, const char *what, double a, double b) {
+    if (a != b && !(isnan(a) && isnan(b)))
+        differ(s, what, a, b);
+}
+static void close_to(const scene *s, const char *what, double a, double b, double scale) {
+    if (!(fabs(a - b) <= 1e-9 * scale))
+        differ(s, what, a, b);
+}
+#define EQUAL(name) equal(s, #name, (double)a.name, (double)b.name)
+#define CLOSE(name) close_to(s, #name, a.name, b.name, scale) /* sums of many roundings */
+
+static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
+    static const uint32_t fields[] = {GP_FIELD_X,   GP_FIELD_Y,   GP_FIELD_VX,         GP_FIELD_VY,             GP_FIELD_PRESSURE,       GP_FIELD_DENSITY,
+                                      GP_FIELD_SXX, GP_FIELD_SXY, GP_FIELD_SHEAR_RATE, GP_FIELD_NUMBER_DENSITY, GP_FIELD_FLUIDITY,       GP_FIELD_COLUMN};
+    const gp_state b = state_of(together);
+    const int64_t n = b.n_particles;
+    double *theirs = malloc(sizeof(double) * (size_t)n), *ours = malloc(sizeof(double) * (size_t)n);
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) {
+        check(gp_copy_field(together, fields[f], rank == 0 ? theirs : NULL, rank == 0 ? n : 0), "gp_copy_field");
+        if (rank > 0)
+            continue;
+        check(gp_copy_field(alone, fields[f], ours, n), "gp_copy_field");
+        for (int64_t k = 0; k < n; ++k)
+            if (ours[k] != theirs[k]) {
+                char what[64];
+                snprintf(what, sizeof what, "step %lld, field 0x%x of %lld", (long long)b.step, (unsigned)fields[f], (long long)k);
+                differ(s, what, ours[k], theirs[k]);
+                break;
+            }
+    }
+    free(theirs), free(ours);
+    if (rank > 0)
+        return;
+    const gp_state a = state_of(alone);
+    const double scale = a.kinetic + a.potential + a.elastic + fabs(a.dissipated);
+    EQUAL(time), EQUAL(step), EQUAL(dt), EQUAL(n_particles), EQUAL(kinetic), EQUAL(potential), EQUAL(elastic);
+    EQUAL(momentum_x), EQUAL(momentum_y), EQUAL(max_speed), EQUAL(rms_speed), EQUAL(x_left), EQUAL(x_right);
+    EQUAL(peak_x), EQUAL(peak_height), EQUAL(max_pressure), EQUAL(at_rest), EQUAL(collisions), EQUAL(retries);
+    EQUAL(max_compression), EQUAL(x_q05), EQUAL(x_q50), EQUAL(detached), EQUAL(volume_drift);
+    CLOSE(dissipated), CLOSE(plate_work), CLOSE(wall_dissipated), CLOSE(bulk_dissipated), CLOSE(energy_error);
+    for (int32_t plate = 0;; ++plate) {
+        gp_load la = {sizeof la}, lb = {sizeof lb};
+        if (gp_get_plate_load(alone, plate, &la) < 0)
+            break;
+        check(gp_get_plate_load(together, plate, &lb), "gp_get_plate_load");
+        const gp_load a = la, b = lb;
+        EQUAL(fx), EQUAL(fy), EQUAL(torque), EQUAL(dx), EQUAL(dy), EQUAL(impulse_x), EQUAL(impulse_y), EQUAL(torque_pivot);
+        EQUAL(angle), EQUAL(impulse_torque);
+    }
+}
+
+static void run(const scene *s) {
+    gp_sim *together = make(s, 0), *alone = NULL;
+    /* gp_add_particles is each rank's own: all of them the first one's. */
+    s->build(together);
+    if (rank == 0) {
+        alone = make(s, 1);
+        s->build(alone);
+    }
+    for (int part = 0; part < 2; ++part) {
+        const gp_status b = gp_step(together, s->steps / 2);
+        if (rank == 0) {
+            char text[1024];
+            snprintf(text, sizeof text, "%s", gp_last_error());
+            const gp_status a = gp_step(alone, s->steps / 2);
+            if (a != b || (a < 0 && strcmp(gp_last_error(), text)))
+                differ(s, text, a, b), puts(gp_last_error());
+        }
+        compare(s, alone, together);
+    }
+    gp_destroy(together);
+    gp_destroy(alone);
+}
+
+int main(int argc, char **argv) {
+    int provided;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (argc > 2)
+        threads = atoi(argv[2]);
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; ++k)
+        if (argc < 2 || !strcmp(argv[1], "all") || !strcmp(argv[1], scenes[k].name)) {
+            const int before = failures;
+            run(&scenes[k]);
+            if (rank == 0 && failures == before)
+                printf("%s on %d: equal\n", scenes[k].name, ranks);
+            fflush(stdout);
+        }
+    MPI_Bcast(&failures, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    MPI_Finalize();
+    return failures > 0;
+}
