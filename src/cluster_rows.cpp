@@ -35,17 +35,22 @@ void test_run(const double *__restrict x, const double *__restrict y, int64_t n,
     }
 }
 
-// One cluster's rows while they are found, without branches.
+// A row while it is found: its places, those of close ones with all bits turned, without branches.
 struct Row {
-    int32_t *all, *close;
+    int32_t *end;
+    int64_t close = 0;
 
     void add(int32_t j, int32_t found) {
-        *all = j;
-        all += found != 0;
-        *close = j;
-        close += found == 3;
+        const int32_t is_close = found >> 1;
+        *end = j ^ -is_close;
+        end += found & 1;
+        close += is_close;
     }
 };
+
+int32_t place_of(int32_t entry) {
+    return entry ^ (entry >> 31);
+}
 
 Box box_of(const Particles &p, int64_t first, int64_t last, double margin) {
     Box box{p.x[first], p.x[first], p.y[first], p.y[first]};
@@ -78,7 +83,7 @@ bool look_through(const Particles &p, const Barriers &barriers, double tolerance
     if (!any)
         return false;
     for (int64_t k = 0; k < n; ++k) {
-        const int32_t j = row[k];
+        const int32_t j = place_of(row[k]);
         unsigned lanes = 0;
         for (int32_t i = first; i < last; ++i)
             if (i == j || !separated(barriers, about[i - first], {p.x[i], p.y[i]}, {p.x[j], p.y[j]}, tolerance))
@@ -134,8 +139,8 @@ private:
         return box_of(p_, list_.first[cluster], list_.first[cluster + 1], radius_);
     }
 
-    // Of each block: all candidates of its clusters, twice, and the length of each row. One place more of each: what is not
-    // within reach is written, too, before it is told.
+    // Of each block: all candidates of its clusters, the length of each row, and a place more: what is out of reach is written, too,
+    // before that is told.
     void measure_room() {
         Field<int64_t> &room = list_.draft.room;
         const int64_t blocks = block_count(p_.count);
@@ -144,17 +149,12 @@ private:
         for_each_block<1>(threads_, blocks, [&](int64_t block, int64_t, int64_t) {
             int64_t most = 0;
             for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
-                most += 4 + 2 * candidates_of(c);
+                most += 2;
+                for_each_run_in(grid_, images_, box_of_reach(c), [&](int64_t from, int64_t to) { most += to - from; });
             }
             room[block + 1] = most;
         });
         std::partial_sum(room.begin(), room.end(), room.begin());
-    }
-
-    int64_t candidates_of(int64_t cluster) const {
-        int64_t count = 0;
-        for_each_run_in(grid_, images_, box_of_reach(cluster), [&](int64_t from, int64_t to) { count += to - from; });
-        return count;
     }
 
     // The rows of a block, each behind its length; and how many steps they take.
@@ -163,38 +163,24 @@ private:
         int32_t *at = draft.index.data() + room_of(first_block, block);
         for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
             const LanesAt lanes = lanes_of(c);
-            int32_t *const all = at + 1, *const close = all + candidates_of(c) + 2;
-            Row row{all, close};
+            int32_t *const begin = at + 1;
+            Row row{begin};
             find_row(c, lanes, row);
-            const int64_t n = row.all - all, n_close = row.close - close;
+            const int64_t n = row.end - begin;
             if (!barriers_.segments.empty())
-                list_.partly_seen[c] = look(c, all, n);
-            if (!list_.partly_seen.empty() && list_.partly_seen[c])
-                look(c, close, n_close);
-            all[-1] = static_cast<int32_t>(n);
-            close[-1] = static_cast<int32_t>(n_close);
-            list_.all.start[c + 1] = steps_of(c, lanes, all, n);
-            list_.close.start[c + 1] = steps_of(c, lanes, close, n_close);
-            std::copy_n(close - 1, n_close + 1, all + n); // right behind
-            if (!list_.partly_seen.empty() && list_.partly_seen[c])
-                std::copy_n(seen_by_of(close) - 1, n_close + 1, seen_by_of(all) + n);
-            at = all + n + 1 + n_close;
+                list_.partly_seen[c] = look_through(p_, barriers_, tolerance_, list_.first[c], list_.first[c + 1], begin, n,
+                                                    draft.seen_by.data() + (begin - draft.index.data()));
+            *at = static_cast<int32_t>(n);
+            int64_t steps = n, close_steps = row.close;
+            if (may_have_long_way(begin, n, list_.first[c])) {
+                steps = close_steps = 0;
+                walk(begin, n, false, c, lanes, [&](int32_t, int64_t) { ++steps; });
+                walk(begin, n, true, c, lanes, [&](int32_t, int64_t) { ++close_steps; });
+            }
+            list_.all.start[c + 1] = steps;
+            list_.close.start[c + 1] = close_steps;
+            at = begin + n;
         }
-    }
-
-    uint8_t *seen_by_of(const int32_t *row) { return list_.draft.seen_by.data() + (row - list_.draft.index.data()); }
-    bool look(int64_t cluster, const int32_t *row, int64_t n) {
-        return look_through(p_, barriers_, tolerance_, list_.first[cluster], list_.first[cluster + 1], row, n,
-                            seen_by_of(row));
-    }
-
-    int64_t steps_of(int64_t cluster, const LanesAt &lanes, const int32_t *row, int64_t n) {
-        const int32_t first = list_.first[cluster];
-        if (!has_long_way(row, n, first))
-            return n;
-        int64_t steps = 0;
-        walk(row, n, first, lanes, [&](int32_t, int64_t) { ++steps; });
-        return steps;
     }
 
     void find_row(int64_t cluster, const LanesAt &lanes, Row &row) const {
@@ -210,20 +196,25 @@ private:
         });
     }
 
-    static bool has_long_way(const int32_t *row, int64_t n, int32_t first) {
-        int32_t longest = n > 0 ? std::abs(row[0] - first) : 0;
-        for (int64_t k = 1; k < n; ++k)
-            longest = std::max(longest, std::abs(row[k] - row[k - 1]));
-        return longest > longest_step;
+    static bool may_have_long_way(const int32_t *row, int64_t n, int32_t first) {
+        int32_t low = first, high = first;
+        for (int64_t k = 0; k < n; ++k) {
+            low = std::min(low, place_of(row[k]));
+            high = std::max(high, place_of(row[k]));
+        }
+        return high - low > longest_step;
     }
 
-    // Calls taken(step, k) for the steps along a row; k is -1 for those to places between its entries.
+    // Calls taken(step, k) for the steps along a row, or the close ones in it; k is -1 for those to places between its entries.
     template <class Taken>
-    void walk(const int32_t *row, int64_t n, int64_t first, const LanesAt &lanes, const Taken &taken) {
-        int32_t at = static_cast<int32_t>(first);
+    void walk(const int32_t *row, int64_t n, bool close, int64_t cluster, const LanesAt &lanes, const Taken &taken) {
+        int32_t at = list_.first[cluster];
         for (int64_t k = 0; k < n; ++k) {
-            while (std::abs(row[k] - at) > longest_step) {
-                const int32_t forth = row[k] > at ? 1 : -1;
+            if (close && row[k] >= 0)
+                continue;
+            const int32_t j = place_of(row[k]);
+            while (std::abs(j - at) > longest_step) {
+                const int32_t forth = j > at ? 1 : -1;
                 int32_t next = at + forth * longest_step;
                 while (next != at && is_seen(next, lanes))
                     next -= forth;
@@ -234,8 +225,8 @@ private:
                 taken(next - at, -1);
                 at = next;
             }
-            taken(row[k] - at, k);
-            at = row[k];
+            taken(j - at, k);
+            at = j;
         }
     }
     bool is_seen(int32_t j, const LanesAt &lanes) const {
@@ -263,27 +254,27 @@ private:
 
     void place_block(int64_t first_block, int64_t block) {
         const int32_t *at = list_.draft.index.data() + room_of(first_block, block);
-        for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c)
-            for (ClusterRows *rows : {&list_.all, &list_.close}) {
-                place_row(*rows, c, at + 1, *at);
-                at += 1 + *at;
-            }
+        for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
+            const int64_t n = *at;
+            place_row(list_.all, false, c, at + 1, n);
+            place_row(list_.close, true, c, at + 1, n);
+            at += 1 + n;
+        }
     }
 
-    void place_row(ClusterRows &rows, int64_t c, const int32_t *row, int64_t n) {
+    void place_row(ClusterRows &rows, bool close, int64_t c, const int32_t *row, int64_t n) {
         const bool partly = !list_.partly_seen.empty() && list_.partly_seen[c];
         int16_t *const steps = rows.step.data() + rows.start[c];
         uint8_t *const seen_by = partly ? rows.seen_by.data() + rows.start[c] : nullptr;
-        const uint8_t *const drafted = partly ? seen_by_of(row) : nullptr;
-        if (rows.start[c + 1] - rows.start[c] == n) { // no long ways
+        const uint8_t *const drafted =
+            partly ? list_.draft.seen_by.data() + (row - list_.draft.index.data()) : nullptr;
+        if (!close && !partly && rows.start[c + 1] - rows.start[c] == n) { // no long ways
             for (int64_t k = 0; k < n; ++k)
-                steps[k] = static_cast<int16_t>(row[k] - (k > 0 ? row[k - 1] : list_.first[c]));
-            if (partly)
-                std::copy_n(drafted, n, seen_by);
+                steps[k] = static_cast<int16_t>(place_of(row[k]) - (k > 0 ? place_of(row[k - 1]) : list_.first[c]));
             return;
         }
         int64_t entry = 0;
-        walk(row, n, list_.first[c], lanes_of(c), [&](int32_t step, int64_t k) {
+        walk(row, n, close, c, lanes_of(c), [&](int32_t step, int64_t k) {
             if (partly)
                 seen_by[entry] = k < 0 ? uint8_t{0} : drafted[k];
             steps[entry++] = static_cast<int16_t>(step);

@@ -95,7 +95,7 @@ static void drum(gp_sim *s) {
         y[k] = 0.08 * sin(-2 * acos(-1.0) * (k % n) / n);
     }
     add_column(s, -0.05, -0.055, 0.1, 0.05, 0, 0, 0);
-    gp_plate p = a_plate(0, 0, 1, 0);
+    gp_plate p = a_plate(0, 0, 0, 0);
     p.n_points = n + 1, p.point_x = x, p.point_y = y, p.omega = 2;
     add_plate(s, &p);
 }
@@ -103,7 +103,7 @@ static void drum(gp_sim *s) {
 static void hopper(gp_sim *s) {
     const double xl[] = {-0.01, -0.05, -0.05}, yl[] = {0.0, 0.05, 0.2}, xr[] = {0.05, 0.05, 0.01}, yr[] = {0.2, 0.05, 0.0};
     add_column(s, -0.05, 0.06, 0.1, 0.08, 0, 0, -0.2);
-    gp_plate p = a_plate(0, 0, 1, 0);
+    gp_plate p = a_plate(0, 0, 0, 0);
     p.n_points = 3, p.point_x = xl, p.point_y = yl;
     add_plate(s, &p);
     p.point_x = xr, p.point_y = yr;
