@@ -15,6 +15,10 @@ public:
     // scale: one over the unit, a power of two.
     void add(double value, double scale) {
         const double units = value * scale;
+        if (std::abs(units) < 0x1p62) { // nearly always
+            whole_ += static_cast<int64_t>(std::rint(units));
+            return;
+        }
         if (!(std::abs(units) < 0x1p86)) { // or not a number
             beyond_ += value;
             return;

@@ -1,0 +1,108 @@
+/* Runs that are saved by some processes and gone on with by others end as the unbroken run of one process does.
+ *
+ *   restarts make SCENE STEPS FILE     [on any number of processes] a scene from its beginning
+ *   restarts go_on FILE STEPS FILE     another stretch, on any number
+ *   restarts alone FILE STEPS FILE     the same by the functions for one process
+ *   restarts compare FILE FILE         1 if the states differ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <granperi/gp_mpi.h>
+
+static void check(gp_status status) {
+    if (status < 0) {
+        fprintf(stderr, "restarts: %s\n", gp_last_error());
+        MPI_Abort(MPI_COMM_WORLD, 2);
+    }
+}
+
+static void build(gp_sim *sim, const char *scene) {
+    gp_column column;
+    gp_plate plate;
+    check(gp_column_init(&column, sizeof column));
+    check(gp_plate_init(&plate, sizeof plate));
+    column.x_min = 0.01, column.width = 0.12, column.height = 0.06, column.vx = 0.3;
+    check(gp_add_column(sim, &column, NULL));
+    const int periodic = !strcmp(scene, "periodic");
+    plate.x0 = periodic ? 0.16 : 1, plate.x1 = periodic ? 0 : -1;
+    check(gp_add_plate(sim, &plate, NULL));
+    if (periodic)
+        return;
+    /* A gate that is lifted and a lid that falls. */
+    static const double t[] = {0, 0.02, 0.1}, x[] = {0, 0, 0}, y[] = {0, 0.005, 0.2};
+    plate.x0 = plate.x1 = 0.13, plate.y0 = 0.2, plate.n_knots = 3, plate.knot_t = t, plate.knot_x = x, plate.knot_y = y;
+    check(gp_add_plate(sim, &plate, NULL));
+    check(gp_plate_init(&plate, sizeof plate));
+    plate.x0 = 0.0, plate.x1 = 0.12, plate.y0 = plate.y1 = 0.065, plate.normal_pressure = 50;
+    check(gp_add_plate(sim, &plate, NULL));
+}
+
+static int compare(const char *a, const char *b) {
+    gp_sim *sims[2];
+    gp_state states[2];
+    const char *files[] = {a, b};
+    for (int k = 0; k < 2; ++k) {
+        check(gp_load(files[k], &sims[k]));
+        memset(&states[k], 0, sizeof states[k]);
+        states[k].struct_size = sizeof states[k];
+        check(gp_get_state(sims[k], &states[k]));
+        states[k].wall_seconds = 0;
+    }
+    int different = states[0].time != states[1].time || states[0].step != states[1].step;
+    const int64_t n = states[0].n_particles;
+    double *values[2] = {malloc(sizeof(double) * (size_t)n), malloc(sizeof(double) * (size_t)n)};
+    for (uint32_t bit = 1; bit <= GP_FIELD_ALL; bit <<= 1)
+        if (bit & GP_FIELD_ALL) {
+            for (int k = 0; k < 2; ++k)
+                check(gp_copy_field(sims[k], bit, values[k], n));
+            for (int64_t i = 0; i < n; ++i)
+                if (values[0][i] != values[1][i]) {
+                    printf("field 0x%x of %lld: %.17g, %.17g\n", (unsigned)bit, (long long)i, values[0][i], values[1][i]);
+                    different = 1;
+                    break;
+                }
+        }
+    for (int32_t plate = 0;; ++plate) {
+        gp_load loads[2] = {{sizeof loads[0]}, {sizeof loads[0]}};
+        if (gp_get_plate_load(sims[0], plate, &loads[0]) < 0)
+            break;
+        check(gp_get_plate_load(sims[1], plate, &loads[1]));
+        different |= memcmp(&loads[0], &loads[1], sizeof loads[0]) != 0;
+    }
+    return different;
+}
+
+int main(int argc, char **argv) {
+    MPI_Init(&argc, &argv);
+    int rank, result = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const char *mode = argc > 1 ? argv[1] : "";
+    if (!strcmp(mode, "compare") && argc == 4) {
+        result = compare(argv[2], argv[3]);
+    } else if (argc == 5) {
+        gp_sim *sim;
+        if (!strcmp(mode, "make")) {
+            gp_config config;
+            check(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
+            config.spacing = 0.004, config.jitter = 0.1, config.threads = 1;
+            if (!strcmp(argv[2], "periodic"))
+                config.periodic_x_max = 0.16, config.gravity_x = 4;
+            check(gp_create_mpi(&config, MPI_COMM_WORLD, &sim));
+            build(sim, argv[2]);
+        } else if (!strcmp(mode, "alone")) {
+            check(gp_load(argv[2], &sim));
+        } else {
+            check(gp_load_mpi(argv[2], MPI_COMM_WORLD, &sim));
+        }
+        check(gp_step(sim, atol(argv[3])));
+        check(gp_save(sim, argv[4]));
+        gp_destroy(sim);
+    } else {
+        fprintf(stderr, "restarts: see the head of restarts.c\n");
+        result = 2;
+    }
+    MPI_Finalize();
+    return result;
+}
