@@ -43,3 +43,25 @@ target_link_libraries(granperi_mpi PUBLIC MPI::MPI_C PRIVATE ${GRANPERI_ZOLTAN_L
 if(GRANPERI_HDF5)
   target_link_libraries(granperi_mpi PRIVATE ${HDF5_C_LIBRARIES})
 endif()
+
+add_executable(granperi_mpi_program programs/granperi-mpi.c)
+file(RELATIVE_PATH GRANPERI_MPI_RPATH "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+set_target_properties(granperi_mpi_program PROPERTIES OUTPUT_NAME granperi-mpi INSTALL_RPATH "$ORIGIN/${GRANPERI_MPI_RPATH}")
+target_link_libraries(granperi_mpi_program PRIVATE granperi_mpi m)
+
+# ------------------------------------------------------------------------------------------------- install
+
+install(TARGETS granperi_mpi EXPORT granperi-mpi-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS granperi_mpi_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES include/granperi/gp_mpi.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/granperi)
+install(EXPORT granperi-mpi-targets NAMESPACE granperi:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/granperi)
+# Relative, as in granperi.pc.
+file(RELATIVE_PATH GRANPERI_PC_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+file(RELATIVE_PATH GRANPERI_PC_INCLUDEDIR "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+set(GRANPERI_PC_MPI_CFLAGS "")
+foreach(directory ${MPI_C_INCLUDE_DIRS})
+  string(APPEND GRANPERI_PC_MPI_CFLAGS " -I${directory}")
+endforeach()
+list(JOIN MPI_C_LIBRARIES " " GRANPERI_PC_MPI_LIBS)
+configure_file(pkgconfig/granperi-mpi.pc.in granperi-mpi.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/granperi-mpi.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -65,7 +65,9 @@ static int compare(const char *a, const char *b) {
                 }
         }
     for (int32_t plate = 0;; ++plate) {
-        gp_load loads[2] = {{sizeof loads[0]}, {sizeof loads[0]}};
+        gp_load loads[2];
+        memset(loads, 0, sizeof loads);
+        loads[0].struct_size = loads[1].struct_size = sizeof loads[0];
         if (gp_get_plate_load(sims[0], plate, &loads[0]) < 0)
             break;
         check(gp_get_plate_load(sims[1], plate, &loads[1]));

@@ -205,6 +205,20 @@ static void close_to(const scene *s, const char *what, double a, double b, doubl
 #define EQUAL(name) equal(s, #name, (double)a.name, (double)b.name)
 #define CLOSE(name) close_to(s, #name, a.name, b.name, scale) /* sums of many roundings */
 
+static void compare_loads(const scene *s, gp_sim *alone, gp_sim *together) {
+    for (int32_t plate = 0;; ++plate) {
+        gp_load a, b;
+        memset(&a, 0, sizeof a);
+        a.struct_size = sizeof a;
+        b = a;
+        if (gp_get_plate_load(alone, plate, &a) < 0)
+            break;
+        check(gp_get_plate_load(together, plate, &b), "gp_get_plate_load");
+        EQUAL(fx), EQUAL(fy), EQUAL(torque), EQUAL(dx), EQUAL(dy), EQUAL(impulse_x), EQUAL(impulse_y), EQUAL(torque_pivot);
+        EQUAL(angle), EQUAL(impulse_torque);
+    }
+}
+
 static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
     static const uint32_t fields[] = {GP_FIELD_X,   GP_FIELD_Y,   GP_FIELD_VX,         GP_FIELD_VY,             GP_FIELD_PRESSURE,       GP_FIELD_DENSITY,
                                       GP_FIELD_SXX, GP_FIELD_SXY, GP_FIELD_SHEAR_RATE, GP_FIELD_NUMBER_DENSITY, GP_FIELD_FLUIDITY,       GP_FIELD_COLUMN};
@@ -234,15 +248,7 @@ static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
     EQUAL(peak_x), EQUAL(peak_height), EQUAL(max_pressure), EQUAL(at_rest), EQUAL(collisions), EQUAL(retries);
     EQUAL(max_compression), EQUAL(x_q05), EQUAL(x_q50), EQUAL(detached), EQUAL(volume_drift);
     CLOSE(dissipated), CLOSE(plate_work), CLOSE(wall_dissipated), CLOSE(bulk_dissipated), CLOSE(energy_error);
-    for (int32_t plate = 0;; ++plate) {
-        gp_load la = {sizeof la}, lb = {sizeof lb};
-        if (gp_get_plate_load(alone, plate, &la) < 0)
-            break;
-        check(gp_get_plate_load(together, plate, &lb), "gp_get_plate_load");
-        const gp_load a = la, b = lb;
-        EQUAL(fx), EQUAL(fy), EQUAL(torque), EQUAL(dx), EQUAL(dy), EQUAL(impulse_x), EQUAL(impulse_y), EQUAL(torque_pivot);
-        EQUAL(angle), EQUAL(impulse_torque);
-    }
+    compare_loads(s, alone, together);
 }
 
 static void run(const scene *s) {

@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""Tests of several processes: mpi_test.py same_values|restarts|program|kill, with the programs' paths as options."""
+import argparse
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
+ENVIRONMENT = {
+    **os.environ,
+    "OMPI_MCA_mpi_yield_when_idle": "1",  # more processes than cores
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",  # which containers may not do
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMP_WAIT_POLICY": "passive",
+}
+
+
+class Tests:
+    def __init__(self, options, folder):
+        self.options = options
+        self.folder = folder
+        self.failures = 0
+
+    def command(self, ranks, *arguments):
+        return [self.options.mpiexec, "-n", str(ranks), *map(str, arguments)]
+
+    def run(self, ranks, *arguments):
+        return subprocess.run(self.command(ranks, *arguments), cwd=self.folder, env=ENVIRONMENT, text=True,
+                              capture_output=True, timeout=300)
+
+    def check(self, good, what, result=None):
+        print("ok  " if good else "FAIL", what, flush=True)
+        if not good:
+            self.failures += 1
+            if result:
+                print(result.stdout[-2000:], result.stderr[-2000:])
+
+    def must(self, ranks, *arguments):
+        result = self.run(ranks, *arguments)
+        if result.returncode != 0:
+            print(result.stdout[-2000:], result.stderr[-2000:])
+            sys.exit(f"{arguments}: status {result.returncode}")
+
+    def same_values(self):
+        """Each scene on 1 to 4 processes, with one and two threads, as on one."""
+        for ranks, threads in ((1, 2), (2, 1), (3, 1), (4, 1), (2, 2)):
+            result = self.run(ranks, self.options.same_values, "all", threads)
+            self.check(result.returncode == 0, f"{ranks} processes, {threads} threads", result)
+
+    def same(self, a, b, what):
+        result = self.run(1, self.options.restarts, "compare", a, b)
+        self.check(result.returncode == 0, what, result)
+
+    def restarts(self):
+        program = self.options.restarts
+        for scene in "periodic", "gate":
+            self.must(1, program, "make", scene, 337, "whole.h5")
+            self.must(1, program, "make", scene, 113, "a.h5")
+            self.must(3, program, "go_on", "a.h5", 101, "b.h5")
+            self.must(2, program, "go_on", "b.h5", 60, "c.h5")
+            self.must(1, program, "alone", "c.h5", 63, "d.h5")
+            self.same("whole.h5", "d.h5", f"{scene}: 1, 3, 2 processes, one without MPI")
+            self.must(3, program, "make", scene, 0, "first.h5")
+            self.must(4, program, "go_on", "first.h5", 337, "e.h5")
+            self.same("whole.h5", "e.h5", f"{scene}: saved before the first step")
+
+    def program(self):
+        """granperi-mpi: what it writes, what it says."""
+        program = self.options.program
+        self.must(1, self.options.restarts, "make", "gate", 0, "first.h5")
+        self.must(2, program, "first.h5", "--end", 0.02, "--output", "two.h5", "--every", 0.005, "--save", "two.end.h5")
+        self.must(1, program, "first.h5", "--end", 0.02, "--output", "one.h5", "--every", 0.005, "--save", "one.end.h5")
+        self.same("one.end.h5", "two.end.h5", "the same end")
+        frames = []
+        for name in "one.h5", "two.h5":
+            with h5py.File(self.folder / name) as file:
+                position = file["particles/all/position"]
+                frames.append((position["value"][...].tobytes(), position["time"][...].tobytes()))
+        self.check(frames[0] == frames[1], "the same frames")
+        for arguments, expected in (((), "no file given"), (("first.h5",), "--end is missing"),
+                                    (("none.h5", "--end", 1), "none.h5"), (("first.h5", "--end", "x"), "expected a number"),
+                                    (("first.h5", "--end", 0), "expected a time after"),
+                                    (("first.h5", "--end", 1, "--what"), "no such option")):
+            result = self.run(2, program, *arguments)
+            self.check(result.returncode != 0 and result.stderr.count(expected) == 1, f"{expected}, once", result)
+
+    def start(self, ranks, *arguments):
+        return subprocess.Popen(self.command(ranks, *arguments), cwd=self.folder, env=ENVIRONMENT, text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def ranks_of(self, process):
+        """Of the program among the descendants of mpiexec."""
+        children = {}
+        for entry in pathlib.Path("/proc").iterdir():
+            if entry.name.isdigit():
+                try:
+                    fields = (entry / "stat").read_text().rpartition(")")[2].split()
+                    children.setdefault(int(fields[1]), []).append(int(entry.name))
+                except OSError:
+                    continue
+        found, left = [], [process.pid]
+        while left:
+            for child in children.get(left.pop(), []):
+                left.append(child)
+                try:
+                    if os.path.samefile(f"/proc/{child}/exe", self.options.program):
+                        found.append(child)
+                except OSError:
+                    continue
+        return found
+
+    def wait_for_frames(self, process, name, count):
+        path = self.folder / name
+        while process.poll() is None:
+            try:
+                with h5py.File(path) as file:
+                    if len(file["particles/all/position/time"]) >= count:
+                        return
+            except (OSError, KeyError):
+                pass
+            time.sleep(0.02)
+
+    def kill(self):
+        """A signal saves and ends; killed at any moment, what is on disk is whole."""
+        program = self.options.program
+        self.must(1, self.options.restarts, "make", "gate", 0, "first.h5")
+        process = self.start(2, program, "first.h5", "--end", 10, "--output", "f.h5", "--every", 0.005, "--save", "s.h5")
+        self.wait_for_frames(process, "f.h5", 3)
+        ranks = self.ranks_of(process)
+        os.kill(ranks[-1], signal.SIGUSR1)
+        _, errors = process.communicate(timeout=120)
+        self.check(process.returncode == 75 and "stopped by a signal" in errors, "a signal to one process ends all")
+        self.must(3, program, "s.h5", "--end", 0.06, "--output", "f.h5", "--every", 0.005, "--append", "--save", "e.h5")
+        self.must(1, program, "first.h5", "--end", 0.06, "--save", "whole.h5")
+        with h5py.File(self.folder / "f.h5") as file:
+            self.check(len(file["particles/all/position/time"]) >= 12, "frames go on")
+        chooser = random.Random(20)
+        for turn in range(self.options.kills):
+            (self.folder / "k.h5").unlink(missing_ok=True)
+            process = self.start(2, program, "s.h5", "--end", 10, "--output", "k.h5", "--every", 0.002)
+            self.wait_for_frames(process, "k.h5", 1 + turn % 4)
+            time.sleep(0.1 * chooser.random())
+            ranks = self.ranks_of(process)
+            for rank in ranks if turn % 2 else ranks[:1]:
+                os.kill(rank, signal.SIGKILL)
+            process.communicate(timeout=120)
+            whole = False
+            with h5py.File(self.folder / "k.h5") as file:
+                position = file["particles/all/position"]
+                whole = len(position["value"]) >= 1 and position["value"][...].size > 0
+            self.check(whole and process.returncode != 0, f"killed, {len(ranks)} processes")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("check", choices=["same_values", "restarts", "program", "kill"])
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--same-values")
+    parser.add_argument("--restarts")
+    parser.add_argument("--program")
+    parser.add_argument("--kills", type=int, default=4)
+    options = parser.parse_args()
+    if h5py is None and options.check in ("program", "kill"):
+        print("no h5py")
+        return 77
+    with tempfile.TemporaryDirectory() as folder:
+        tests = Tests(options, pathlib.Path(folder))
+        getattr(tests, options.check)()
+    return 1 if tests.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
