@@ -361,6 +361,33 @@ void Sim::set_world(std::unique_ptr<World> world) {
     world_ = std::move(world);
 }
 
+std::vector<gp_plan_entry> Sim::plan() const {
+    std::vector<gp_plan_entry> entries = describe_plan(stages_, traits_, *world_);
+    if (!crossing_)
+        return entries;
+    const Traffic traffic = crossing_->traffic();
+    gp_plan_entry entry{};
+    entry.kind = 2;
+    entry.active = 1;
+    entry.name = "messages";
+    entry.reason = "sent by this process in steps; bytes: theirs; seconds: in all calls of MPI";
+    entry.bytes = traffic.bytes;
+    entry.seconds = crossing_->waited();
+    entry.calls = traffic.messages;
+    entries.push_back(entry);
+    entry.bytes = 0;
+    entry.seconds = 0;
+    entry.name = "reductions";
+    entry.reason = "over all processes";
+    entry.calls = traffic.reductions;
+    entries.push_back(entry);
+    entry.name = "cuts";
+    entry.reason = "of the plane into boxes of equal work";
+    entry.calls = traffic.cuts;
+    entries.push_back(entry);
+    return entries;
+}
+
 Progress Sim::progress() const {
     return {started_, diverged_, warnings_.told(), epoch_, wall_seconds_};
 }

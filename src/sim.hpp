@@ -69,7 +69,7 @@ public:
     const World &world() const { return *world_; }
     // Without preparing anything.
     Clock clock() const { return world_ ? world_->clock : Clock{}; }
-    std::vector<gp_plan_entry> plan() const { return describe_plan(stages_, traits_, *world_); }
+    std::vector<gp_plan_entry> plan() const;
 
     uint64_t epoch() const { return epoch_; }
     double wall_seconds() const { return wall_seconds_; }

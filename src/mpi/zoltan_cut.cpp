@@ -22,9 +22,9 @@ ZoltanCut::ZoltanCut(MPI_Comm comm) : comm_(comm) {
     if (!zoltan_)
         throw make_error(GP_E_MEMORY, "Zoltan_Create: out of memory");
     // The cuts are kept, to be asked for the owners of places; who is to go where follows from that.
-    const char *const parameters[][2] = {{"LB_METHOD", "RCB"},     {"KEEP_CUTS", "1"},       {"RETURN_LISTS", "NONE"},
-                                         {"DEBUG_LEVEL", "0"},     {"NUM_GID_ENTRIES", "1"}, {"NUM_LID_ENTRIES", "0"},
-                                         {"OBJ_WEIGHT_DIM", "1"}, {"RCB_OUTPUT_LEVEL", "0"}};
+    const char *const parameters[][2] = {{"DEBUG_LEVEL", "0"}, // first: the next one is told on the standard output
+                                         {"LB_METHOD", "RCB"},     {"KEEP_CUTS", "1"},       {"RETURN_LISTS", "NONE"},
+                                         {"NUM_GID_ENTRIES", "1"}, {"NUM_LID_ENTRIES", "0"}, {"OBJ_WEIGHT_DIM", "1"}};
     for (const auto &parameter : parameters)
         require(Zoltan_Set_Param(zoltan_, parameter[0], parameter[1]), parameter[0]);
     require(Zoltan_Set_Num_Obj_Fn(

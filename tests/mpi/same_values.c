@@ -160,12 +160,14 @@ static void wall_within(gp_sim *s) {
 static void blow(gp_config *c) { c->spacing = 0.004, c->sound_speed = 4, c->retry_halvings = 4, c->time_step = 0.0008, c->allow_unstable_step = 1; }
 static void thrown(gp_sim *s) { add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -2.5), floor_of(s, -1, 1); }
 
+static void thrown_hard(gp_sim *s) { add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -6), floor_of(s, -1, 1); }
+
 static const scene scenes[] = {
     {"collapse", fine, collapse, 600}, {"chute", incline, chute, 500},        {"box", coarse, box, 500},
     {"lifted", coarse, lifted, 500},   {"drum", coarse, drum, 500},           {"hopper", coarse, hopper, 500},
     {"two", coarse, two_materials, 400}, {"fluid", coarse, fluid, 400},       {"channel", channel, collapse, 500},
     {"fragments", coarse, fragments, 500}, {"handful", few, handful, 400},    {"within", coarse, wall_within, 400},
-    {"thrown", blow, thrown, 200},
+    {"thrown", blow, thrown, 200},        {"diverging", blow, thrown_hard, 200},
 };
 
 static gp_sim *make(const scene *s, int alone) {
