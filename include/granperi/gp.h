@@ -620,7 +620,7 @@ GP_API gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load);
 typedef struct gp_plan_entry {
     const char *name;   /* static text */
     const char *reason; /* static text: why it is active or left out */
-    int32_t kind;       /* 0: stage, in the order in which they run; 1: field or table */
+    int32_t kind;       /* 0: stage, in the order in which they run; 1: field or table; 2: between processes (gp_mpi.h) */
     int32_t active;     /* 1, or 0 if this scene leaves it out */
     int64_t bytes;      /* of memory held; 0 for a stage */
     double seconds;     /* wall-clock time spent so far; 0 for a field */

@@ -55,6 +55,11 @@ def _run(options: argparse.Namespace) -> None:
     output = options.output or scene.run.output or os.path.splitext(os.path.basename(options.scene))[0] + ".h5"
     if output == "none":
         scene.run.output = output = ""
+    if options.mpi is not None:
+        from . import _mpi
+
+        _mpi.run(scene, options.mpi, output)
+        return
     history = scene.record(output or None, progress=options.progress if options.progress is not None
                            else sys.stderr.isatty() and _has_tqdm())
     last = history[-1]
@@ -161,6 +166,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--end", type=float, help="end of the run, s [that of the scene]")
     run.add_argument("--spacing", type=float, help="m [that of the scene]")
     run.add_argument("--threads", type=int, help="0: the OpenMP default [that of the scene]")
+    run.add_argument("--mpi", type=int, metavar="N", help="on N processes, by mpiexec and granperi-mpi")
     run.add_argument("--progress", action=argparse.BooleanOptionalAction, default=None,
                      help="a progress bar [where stderr is a terminal]")
 
