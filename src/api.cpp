@@ -468,7 +468,7 @@ gp_status gp_save(gp_sim *sim, const char *path) {
         require_pointer("path", path);
         Sim &s = sim->sim;
         const auto save = [&](const World *world) {
-            io::save_checkpoint(path, s, world, sim->output ? sim->output->position(*world) : sim->left_off);
+            io::save_checkpoint(path, s, world, sim->output ? sim->output->position(s.world()) : sim->left_off);
         };
         if (!s.progress().started) {
             if (s.crossing())

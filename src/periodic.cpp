@@ -2,21 +2,12 @@
 
 namespace gp {
 
-namespace {
-
-struct Image {
-    int32_t source;
-    double shift;
-    Cell cell; // by its source's, so that rounding never puts it among the particles
-};
-
-} // namespace
-
 void Images::make(Particles &p, const CellGrid &grid, const Period &period, double reach) {
     const int64_t n = p.count;
     const CellFrame &frame = grid.frame();
     halo_ = nullptr;
-    std::vector<Image> found;
+    found_.clear();
+    ids_.clear();
     for (const bool up : {true, false})
         for (int64_t i = 0; i < n; ++i) {
             const double from_end = up ? p.x[i] - period.x_min : period.x_min + period.length - p.x[i];
@@ -24,18 +15,16 @@ void Images::make(Particles &p, const CellGrid &grid, const Period &period, doub
                 continue;
             Cell cell = frame.cell_of(p.x[i], p.y[i]);
             cell.column += up ? frame.columns() : -frame.columns();
-            found.push_back({static_cast<int32_t>(i), up ? period.length : -period.length, cell});
+            found_.push_back({static_cast<int32_t>(i), up ? period.length : -period.length, cell});
+            ids_.push_back(p.id[i]);
         }
-    count = static_cast<int64_t>(found.size());
+    count = static_cast<int64_t>(found_.size());
     p.make_room(count);
-    std::vector<int64_t> id;
-    for (const Image &image : found)
-        id.push_back(p.id[image.source]);
-    put_in_order_of_cells(grid, id, [&](int64_t k) { return found[k].cell; });
+    put_in_order_of_cells(grid, ids_, [&](int64_t k) { return found_[k].cell; });
     source_.resize(count);
     shift_.resize(count);
     for (int64_t k = 0; k < count; ++k) {
-        const Image &image = found[cells_.order()[k]];
+        const Image &image = found_[cells_.order()[k]];
         source_[k] = image.source;
         shift_[k] = image.shift;
         p.column[first_ + k] = p.column[image.source];
@@ -62,8 +51,8 @@ void Images::put_in_order_of_cells(const CellGrid &grid, const std::vector<int64
         low = {std::min(low.column, at.column), std::min(low.row, at.row)};
         high = {std::max(high.column, at.column), std::max(high.row, at.row)};
     }
-    Field<double> room(count);
-    cells_.number(grid.frame(), low, high, count, id.data(), cell_of, room, 1);
+    room_.resize(count);
+    cells_.number(grid.frame(), low, high, count, id.data(), cell_of, room_, 1);
 }
 
 void Images::copy_all(Particles &p) const {
@@ -105,7 +94,9 @@ void Images::copy_motion(Particles &p) const {
 
 int64_t Images::bytes() const {
     return cells_.bytes() +
-           static_cast<int64_t>(source_.capacity() * sizeof(int32_t) + shift_.capacity() * sizeof(double));
+           static_cast<int64_t>(source_.capacity() * sizeof(int32_t) +
+                                (shift_.capacity() + room_.capacity()) * sizeof(double) +
+                                found_.capacity() * sizeof(Image) + ids_.capacity() * sizeof(int64_t));
 }
 
 } // namespace gp

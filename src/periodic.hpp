@@ -53,6 +53,16 @@ private:
     Halo *halo_ = nullptr;
     Field<int32_t> source_;
     Field<double> shift_;
+
+    // As they are found, before they are in order.
+    struct Image {
+        int32_t source;
+        double shift;
+        Cell cell; // by its source's, so that rounding never puts it among the particles
+    };
+    std::vector<Image> found_;
+    std::vector<int64_t> ids_;
+    Field<double> room_;
 };
 
 template <class Found> void Images::for_each_run_in(const CellGrid &grid, const Box &box, const Found &found) const {

@@ -94,9 +94,9 @@ const std::vector<FacetImage> &Walls::images_of_facets() {
 const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid, double radius, Crossing *crossing) {
     std::vector<Segment> &found = barriers_.segments;
     found.clear();
-    std::vector<double> behind_of; // of images, 1 or 0
+    has_behind_.clear();
     for (const FacetImage &image : images_of_facets()) {
-        behind_of.push_back(0);
+        has_behind_.push_back(0);
         const Segment &s = image.segment;
         const Box box = box_around(s, radius);
         if (particles.count == 0 || box.gap(grid.box()) > 0)
@@ -109,12 +109,12 @@ const Barriers &Walls::barriers(const Particles &particles, const CellGrid &grid
                 behind = s.distance(r) < -allowed && s.nearest_square(r) < radius * radius;
             }
         });
-        behind_of.back() = behind ? 1 : 0;
+        has_behind_.back() = behind ? 1 : 0;
     }
     if (crossing)
-        crossing->combine(behind_of.data(), static_cast<int>(behind_of.size()), nullptr, 0);
-    for (std::size_t k = 0; k < behind_of.size(); ++k)
-        if (behind_of[k] > 0)
+        crossing->combine(has_behind_.data(), static_cast<int>(has_behind_.size()), nullptr, 0);
+    for (std::size_t k = 0; k < has_behind_.size(); ++k)
+        if (has_behind_[k] > 0)
             found.push_back(images_[k].segment);
     barriers_.cells.sort(
         static_cast<int64_t>(found.size()), [&](int64_t k) { return &found[k]; }, grid.box(), radius);

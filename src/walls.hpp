@@ -159,6 +159,7 @@ private:
     FacetChains chains_;
     SegmentCells cells_;
     Barriers barriers_;
+    std::vector<double> has_behind_; // of images, 1 or 0: material right behind it
     std::vector<WallPlace> places_; // of ghosts
     std::vector<Candidate> candidates_;
     Field<int32_t> passed_; // the plate that the way passes from who sees a candidate
