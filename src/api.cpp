@@ -114,7 +114,8 @@ void require_stations(int64_t n, const char *in_name, const double *in, const ch
 // The sink of a process among several: all know when a frame is due, and the first one writes it.
 class SharedFrames : public FrameSink {
 public:
-    SharedFrames(Sim &sim, io::Output *output, const io::FrameTimes &times) : sim_(sim), output_(output), times_(times) {}
+    SharedFrames(Sim &sim, io::Output *output, const io::FrameTimes &times)
+        : sim_(sim), output_(output), times_(times) {}
     void step_done(const World &part) override {
         if (!times_.due(part))
             return;

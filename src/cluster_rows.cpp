@@ -168,8 +168,8 @@ private:
             find_row(c, lanes, row);
             const int64_t n = row.end - begin;
             if (!barriers_.segments.empty())
-                list_.partly_seen[c] = look_through(p_, barriers_, tolerance_, list_.first[c], list_.first[c + 1], begin, n,
-                                                    draft.seen_by.data() + (begin - draft.index.data()));
+                list_.partly_seen[c] = look_through(p_, barriers_, tolerance_, list_.first[c], list_.first[c + 1],
+                                                    begin, n, draft.seen_by.data() + (begin - draft.index.data()));
             *at = static_cast<int32_t>(n);
             int64_t steps = n, close_steps = row.close;
             if (may_have_long_way(begin, n, list_.first[c])) {
@@ -266,8 +266,7 @@ private:
         const bool partly = !list_.partly_seen.empty() && list_.partly_seen[c];
         int16_t *const steps = rows.step.data() + rows.start[c];
         uint8_t *const seen_by = partly ? rows.seen_by.data() + rows.start[c] : nullptr;
-        const uint8_t *const drafted =
-            partly ? list_.draft.seen_by.data() + (row - list_.draft.index.data()) : nullptr;
+        const uint8_t *const drafted = partly ? list_.draft.seen_by.data() + (row - list_.draft.index.data()) : nullptr;
         if (!close && !partly && rows.start[c + 1] - rows.start[c] == n) { // no long ways
             for (int64_t k = 0; k < n; ++k)
                 steps[k] = static_cast<int16_t>(place_of(row[k]) - (k > 0 ? place_of(row[k - 1]) : list_.first[c]));

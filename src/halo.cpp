@@ -59,8 +59,8 @@ void Halo::find(const Particles &p, const CellFrame &frame, const Period &period
             if (there.shift != 0)
                 cell.column += there.shift > 0 ? frame.columns() : -frame.columns();
             const auto number = [](int64_t whole) { return static_cast<double>(whole); };
-            out[there.rank].insert(out[there.rank].end(), {number(p.id[i]), number(p.column[i]), number(cell.column),
-                                                           number(cell.row)});
+            out[there.rank].insert(out[there.rank].end(),
+                                   {number(p.id[i]), number(p.column[i]), number(cell.column), number(cell.row)});
             ++out_count[there.rank];
         }
     crossing_.deal(out, in);
@@ -135,10 +135,9 @@ void Halo::copy_motion(Particles &p) {
 }
 
 int64_t Halo::bytes() const {
-    return static_cast<int64_t>(
-        (source_.capacity() + column_.capacity() + place_.capacity()) * sizeof(int32_t) +
-        (shift_.capacity() + out_.capacity() + in_.capacity()) * sizeof(double) + id_.capacity() * sizeof(int64_t) +
-        cell_.capacity() * sizeof(Cell));
+    return static_cast<int64_t>((source_.capacity() + column_.capacity() + place_.capacity()) * sizeof(int32_t) +
+                                (shift_.capacity() + out_.capacity() + in_.capacity()) * sizeof(double) +
+                                id_.capacity() * sizeof(int64_t) + cell_.capacity() * sizeof(Cell));
 }
 
 } // namespace gp

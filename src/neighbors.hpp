@@ -101,7 +101,8 @@ public:
 
     // Calls body(begin, end) for the run of particles in a row's columns left .. right.
     template <class Body> void run(int64_t row, int64_t left, int64_t right, const Body &body) const {
-        const int64_t from = std::max<int64_t>(left - first_column_, 0), to = std::min(right - first_column_, columns_ - 1);
+        const int64_t from = std::max<int64_t>(left - first_column_, 0),
+                      to = std::min(right - first_column_, columns_ - 1);
         row -= first_row_;
         if (from <= to && row >= 0 && row < rows_)
             body(run_begin(row * columns_ + from), run_begin(row * columns_ + to + 1));
@@ -155,8 +156,8 @@ void CellGrid::number(const CellFrame &frame, const Cell &low, const Cell &high,
         for_each_block(threads, n, [&](int64_t, int64_t begin, int64_t end) {
             for (int64_t i = begin; i < end; ++i) {
                 const Cell at = cell_of(i);
-                number[i] = static_cast<std::remove_reference_t<decltype(number[i])>>(
-                    (at.row - first_row_) * columns_ + (at.column - first_column_));
+                number[i] = static_cast<std::remove_reference_t<decltype(number[i])>>((at.row - first_row_) * columns_ +
+                                                                                      (at.column - first_column_));
             }
         });
     };

@@ -63,11 +63,11 @@ void Particles::resize(int64_t n) {
     const auto size = static_cast<std::size_t>(std::max<int64_t>(1, n));
     id.resize(size);
     column.resize(size);
-    for (Field<double> *field : {&x,        &y,        &vx,        &vy,           &density,  &pressure,     &sxx,
-                                 &sxy,      &syy,      &lxx,       &lxy,          &lyx,      &lyy,          &gxx,
-                                 &gxy,      &gyy,      &cxx,       &cxy,          &cyx,      &cyy,          &ax,
-                                 &ay,       &push_x,   &push_y,    &stressed,     &rest,     &inverse_rest, &fluidity,
-                                 &fluid_seen, &fluid_pull, &fluid_pace, &bearing_flow})
+    for (Field<double> *field :
+         {&x,        &y,    &vx,           &vy,       &density,    &pressure,   &sxx,        &sxy,
+          &syy,      &lxx,  &lxy,          &lyx,      &lyy,        &gxx,        &gxy,        &gyy,
+          &cxx,      &cxy,  &cyx,          &cyy,      &ax,         &ay,         &push_x,     &push_y,
+          &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &fluid_pull, &fluid_pace, &bearing_flow})
         if (!field->empty())
             field->resize(size);
 }

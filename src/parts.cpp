@@ -17,7 +17,7 @@ double energy_scale(const World &world) {
 
 std::initializer_list<double Ledger::*> sums_of_ledger() {
     static constexpr std::initializer_list<double Ledger::*> sums = {
-        &Ledger::dissipated, &Ledger::penalty,    &Ledger::walls,      &Ledger::diffusion,  &Ledger::spacing,
+        &Ledger::dissipated, &Ledger::penalty,    &Ledger::walls,      &Ledger::diffusion, &Ledger::spacing,
         &Ledger::bulk,       &Ledger::collisions, &Ledger::side_walls, &Ledger::plate_work};
     return sums;
 }
@@ -128,7 +128,8 @@ void deal_out_anew(World &world, const CellFrame &frame) {
         x[i] = middle.x();
         y[i] = middle.y();
     }
-    world.crossing->cut(p.count, x.data(), y.data(), world.share.work > 0 ? world.share.work : static_cast<double>(p.count));
+    world.crossing->cut(p.count, x.data(), y.data(),
+                        world.share.work > 0 ? world.share.work : static_cast<double>(p.count));
 }
 
 // Has the work of the processes since the last time become uneven?

@@ -93,10 +93,9 @@ void Images::copy_motion(Particles &p) const {
 }
 
 int64_t Images::bytes() const {
-    return cells_.bytes() +
-           static_cast<int64_t>(source_.capacity() * sizeof(int32_t) +
-                                (shift_.capacity() + room_.capacity()) * sizeof(double) +
-                                found_.capacity() * sizeof(Image) + ids_.capacity() * sizeof(int64_t));
+    return cells_.bytes() + static_cast<int64_t>(source_.capacity() * sizeof(int32_t) +
+                                                 (shift_.capacity() + room_.capacity()) * sizeof(double) +
+                                                 found_.capacity() * sizeof(Image) + ids_.capacity() * sizeof(int64_t));
 }
 
 } // namespace gp

@@ -37,8 +37,7 @@ private:
 
 // ---------------------------------------------------------------------------------------------- time loop
 
-Sim::Sim(const gp_config &config, std::unique_ptr<Crossing> crossing)
-    : scene_(config), crossing_(std::move(crossing)) {
+Sim::Sim(const gp_config &config, std::unique_ptr<Crossing> crossing) : scene_(config), crossing_(std::move(crossing)) {
     if (crossing_)
         require_partable(scene_);
 }
@@ -218,8 +217,8 @@ int32_t Sim::add_column(const gp_column &column) {
 int32_t Sim::add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                            const double *vy) {
     require_unstarted("gp_add_particles");
-    const int32_t id = crossing_ ? add_particles_of_all(material, n, x, y, vx, vy)
-                                 : scene_.add_particles(material, n, x, y, vx, vy);
+    const int32_t id =
+        crossing_ ? add_particles_of_all(material, n, x, y, vx, vy) : scene_.add_particles(material, n, x, y, vx, vy);
     scene_changed();
     return id;
 }

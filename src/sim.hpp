@@ -93,8 +93,8 @@ private:
 
     Scene scene_;
     std::unique_ptr<Crossing> crossing_;
-    std::unique_ptr<World> world_;            // or the part of it that is this process's
-    std::unique_ptr<World> whole_;            // of all parts, as it was in the epoch
+    std::unique_ptr<World> world_; // or the part of it that is this process's
+    std::unique_ptr<World> whole_; // of all parts, as it was in the epoch
     uint64_t whole_epoch_ = 0;
     bool whole_known_ = false;
     Traits traits_{};

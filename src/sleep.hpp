@@ -51,7 +51,7 @@ struct Sleep {
 
     std::vector<MeanLoad> loads, earlier_loads; // by contact
     Field<int32_t> load_of_id;
-    std::vector<Vector> pushed; // N/m, by pushes in this step, by contact
+    std::vector<Vector> pushed;  // N/m, by pushes in this step, by contact
     std::vector<ExactLoad> held; // by what sleeps, on each plate
 
     bool all() const { return some && awake == 0; }

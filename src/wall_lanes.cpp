@@ -48,10 +48,10 @@ void LaneRows::add(Row (&rows)[lane_count]) {
 
 int64_t WallLanes::bytes() const {
     return particles_of_ghosts.bytes() + ghosts_of_contacts.bytes() +
-           static_cast<int64_t>(contacts.capacity() * sizeof(ContactGroup) +
-                                (of_cluster.capacity() + number_of_.capacity() + of_number_.capacity() +
-                                 numbers_.capacity()) *
-                                    sizeof(int32_t));
+           static_cast<int64_t>(
+               contacts.capacity() * sizeof(ContactGroup) +
+               (of_cluster.capacity() + number_of_.capacity() + of_number_.capacity() + numbers_.capacity()) *
+                   sizeof(int32_t));
 }
 
 void WallLanes::make_rows_of_ghosts(const Walls &walls, const CellGrid &grid, const Images &images) {
@@ -69,7 +69,8 @@ void WallLanes::make_rows_of_ghosts(const Walls &walls, const CellGrid &grid, co
             }
         });
         numbers_.resize(seen.index.size());
-        std::transform(seen.index.begin(), seen.index.end(), numbers_.begin(), [&](int32_t j) { return number_of_[j]; });
+        std::transform(seen.index.begin(), seen.index.end(), numbers_.begin(),
+                       [&](int32_t j) { return number_of_[j]; });
         entries = numbers_.data();
     }
     for (int64_t first = 0; first < walls.ghost_count; first += lane_count) {

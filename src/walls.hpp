@@ -48,7 +48,7 @@ struct Walls {
 
     // Ghosts in reach of material.
     int64_t ghost_count = 0;
-    bool ghosts_placed = false; // by place_ghosts, since the lists were made
+    bool ghosts_placed = false;   // by place_ghosts, since the lists were made
     Field<int32_t> ghost_facet;   // the one in front of it
     Field<int32_t> ghost_chain;   // number
     Field<int32_t> wall_particle; // the ghost of the first layer whose state it takes; only in the paper's schemes
@@ -160,7 +160,7 @@ private:
     SegmentCells cells_;
     Barriers barriers_;
     std::vector<double> has_behind_; // of images, 1 or 0: material right behind it
-    std::vector<WallPlace> places_; // of ghosts
+    std::vector<WallPlace> places_;  // of ghosts
     std::vector<Candidate> candidates_;
     Field<int32_t> passed_; // the plate that the way passes from who sees a candidate
     Field<int32_t> about_;  // facets about a ghost, for each block of ghosts

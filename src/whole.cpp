@@ -11,7 +11,8 @@ namespace gp {
 void require_partable(const Scene &scene) {
     const gp_config &config = scene.config();
     if (scheme_of(config) != Scheme::adjoint)
-        throw make_error(GP_E_UNSUPPORTED, "gp_config.stress, preset: several processes work on the default scheme alone");
+        throw make_error(GP_E_UNSUPPORTED,
+                         "gp_config.stress, preset: several processes work on the default scheme alone");
     if (config.sleep != 0)
         throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = %d: expected 0 with several processes", config.sleep);
 }

@@ -96,7 +96,8 @@ void MpiCrossing::combine(double *largest, int n_largest, Whole *sums, int n_sum
                               sizeof(double) * static_cast<std::size_t>(n_largest);
     in_.resize((bytes + sizeof(Whole) - 1) / sizeof(Whole));
     out_.resize(in_.size());
-    auto *const in = reinterpret_cast<unsigned char *>(in_.data()), *const out = reinterpret_cast<unsigned char *>(out_.data());
+    auto *const in = reinterpret_cast<unsigned char *>(in_.data()), *const out =
+                                                                        reinterpret_cast<unsigned char *>(out_.data());
     std::memcpy(in, &head, sizeof head);
     if (n_sums > 0)
         std::memcpy(in + sizeof head, sums, sizeof(Whole) * static_cast<std::size_t>(n_sums));
@@ -200,7 +201,8 @@ void MpiCrossing::swap(const double *out, double *in, int numbers) {
         if (link.rank == rank_) {
             std::copy_n(first, numbers * link.out, in + numbers * link.first_in);
         } else if (link.out > 0) {
-            MPI_Isend(first, count_of(numbers * link.out), MPI_DOUBLE, link.rank, tag, comm_, &requests_.emplace_back());
+            MPI_Isend(first, count_of(numbers * link.out), MPI_DOUBLE, link.rank, tag, comm_,
+                      &requests_.emplace_back());
             ++traffic_.messages;
             traffic_.bytes += 8 * numbers * link.out;
         }

@@ -42,7 +42,7 @@ private:
     Traffic traffic_;
     MPI_Op combine_ = MPI_OP_NULL;
     std::map<std::size_t, MPI_Datatype> types_; // of what is combined, by size
-    std::vector<Whole> in_, out_; // what is combined; aligned as its sums
+    std::vector<Whole> in_, out_;               // what is combined; aligned as its sums
     struct Link {
         int rank;
         int64_t first_out, out, first_in, in; // particles

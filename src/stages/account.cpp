@@ -72,7 +72,6 @@ void measure_blocks(World &world) {
         world.sums[block].kinetic = 0.5 * p.volume * kinetic;
         world.sums[block].unbalanced = p.volume * unbalanced;
     });
-
 }
 
 BlockRange range_of_blocks(const World &world) {

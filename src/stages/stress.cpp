@@ -177,7 +177,8 @@ void copy_to_images(World &world) {
     const Images &images = world.images;
     const bool penalty = world.constants.penalty > 0, fluid = world.constants.fluid;
     if (penalty && fluid)
-        images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.sxx, &p.sxy, &p.stressed, &p.fluidity});
+        images.copy(
+            {&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.sxx, &p.sxy, &p.stressed, &p.fluidity});
     else if (penalty)
         images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.sxx, &p.sxy, &p.stressed});
     else if (fluid)
