@@ -1,23 +1,22 @@
-#!/usr/bin/env python3
-"""How often the errors that granperi.report states hold (docs/report.md): reports drawn from one pool of runs.
+"""How often the errors hold that granperi.report states: reports drawn from one pool of runs.
 
-A case is a scene, a quantity and a ladder of spacings. Many reports are drawn of each: some runs of each spacing, without doubles.
-The truth is the mean of the finest runs, which no ladder has.
+A case is a scene, a quantity and a ladder of spacings. Many reports are drawn of each: some runs of each spacing, none twice. The
+truth is the mean of the finest runs, which no ladder has.
 """
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import itertools
-import json
 import math
 from collections import defaultdict
-from pathlib import Path
+from typing import Any, Iterable, Iterator
 
 import numpy as np
-
+from granperi import _report_ladder as ladder_costs
+from granperi import _report_runs as runs
 from granperi import _report_statistics as statistics
 
+SEEDS = 4  # runs of each spacing of a report
 LADDERS = {
     "a125": [(8, 16, 24), (8, 16, 24, 32), (16, 24, 32), (16, 24, 40)],
     "a5": [(6, 8, 12), (6, 8, 10, 12), (8, 12, 16), (8, 10, 12, 16)],
@@ -29,78 +28,86 @@ QUANTITIES = {
     "a5": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
     "hopper": ("peak_height", "width_50", "width_90", "width_98", "left"),
 }
-NEXT = {24: 32, 32: 48, 12: 16, 16: 24, 8: 12, 40: 48}  # resolutions that the report has not run: their stated errors
+FINER = {8: 12, 12: 16, 16: 24, 24: 32, 32: 48, 40: 48}  # a spacing that the report forecasts
 
-
-def read(paths: list[Path]) -> dict[tuple[str, str], dict[int, list[float]]]:
-    """(scene, quantity): resolution: values of the runs."""
-    values: dict = defaultdict(lambda: defaultdict(list))
-    for path in paths:
-        for line in path.read_text().splitlines():
-            row = json.loads(line)
-            for name, value in row["values"].items():
-                values[row["scene"], name][row["resolution"]].append(value)
-    return values
+Values = dict[tuple[str, str], dict[int, list[float]]]
 
 
 @dataclasses.dataclass(frozen=True)
 class Drawn:
-    """One report: stated error over true error, of the mean and of one other run at its finest spacing, and beyond."""
+    """One report: relative true and stated error of the mean and of one more run at its finest spacing, and of one run at a finer one."""
 
-    mean: float
-    one: float
-    beyond: float
+    scene: str
+    quantity: str
+    ladder: tuple[int, ...]
     verdict: str
+    mean: tuple[float, float]
+    one: tuple[float, float]
+    finer: tuple[float, float]
 
 
-def draw(values: dict[int, list[float]], ladder: tuple[int, ...], truth: float, seeds: int, rng) -> Drawn:
-    sample, rest = {}, {}
+def values_of(rows: Iterable[dict[str, Any]]) -> Values:
+    """(scene, quantity): resolution: values of the runs."""
+    values: Values = defaultdict(lambda: defaultdict(list))
+    for row in rows:
+        for name, value in row["values"].items():
+            values[row["scene"], name][row["resolution"]].append(value)
+    return values
+
+
+def cases() -> Iterator[tuple[str, str, tuple[int, ...]]]:
+    for scene, ladders in LADDERS.items():
+        yield from ((scene, *case) for case in itertools.product(QUANTITIES[scene], ladders))
+
+
+def truth(values: Values, scene: str, quantity: str) -> float:
+    return float(np.mean([value for n in TRUTH[scene] for value in values[scene, quantity][n]]))
+
+
+def draw(values: Values, scene: str, quantity: str, ladder: tuple[int, ...], rng: np.random.Generator) -> Drawn:
+    of, right = values[scene, quantity], truth(values, scene, quantity)
+    sample, others = {}, {}
     for n in ladder:
-        order = rng.permutation(len(values[n]))
-        take = min(seeds, len(order) - 1)
-        sample[1 / n] = [values[n][k] for k in order[:take]]
-        rest[n] = [values[n][k] for k in order[take:]]
-    found = statistics.Convergence(sample)
-    n = ladder[-1]
-    error = abs(np.mean(sample[1 / n]) - truth)
-    one = abs(rng.choice(rest[n]) - truth)
-    next_one = NEXT.get(n)
-    beyond = math.nan
-    if next_one in values and len(values[next_one]):
-        beyond = found.error(1 / next_one, 1) / max(1e-12, abs(rng.choice(values[next_one]) - truth))
-    return Drawn(found.error(1 / n, len(sample[1 / n])) / max(1e-12, error), found.error(1 / n, 1) / max(1e-12, one), beyond,
-                 getattr(found, "verdict", ""))
+        order = rng.permutation(len(of[n]))
+        take = min(SEEDS, len(order) - 1)
+        sample[1 / n] = [of[n][k] for k in order[:take]]
+        others[n] = [of[n][k] for k in order[take:]]
+    found, n = statistics.Convergence(sample), ladder[-1]
+    finer = FINER[n]
+
+    def pair(value: float, stated: float) -> tuple[float, float]:
+        return abs(value / right - 1), stated / abs(right)
+
+    return Drawn(scene, quantity, ladder, found.verdict,
+                 pair(float(np.mean(sample[1 / n])), found.error(1 / n, len(sample[1 / n]))),
+                 pair(float(rng.choice(others[n])), found.error(1 / n)),
+                 pair(float(rng.choice(of[finer])), found.error(1 / finer)))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("pool", type=Path, nargs="+")
-    parser.add_argument("--draws", type=int, default=40)
-    parser.add_argument("--seeds", type=int, default=4, help="runs per spacing of a report")
-    options = parser.parse_args()
-    values, rng = read(options.pool), np.random.default_rng(1)
-    total = []
-    for scene in LADDERS:
-        for name, ladder in itertools.product(QUANTITIES[scene], LADDERS[scene]):
-            of = values[scene, name]
-            fine = [v for n in TRUTH[scene] for v in of.get(n, [])]
-            if not fine or any(len(of.get(n, [])) < 3 for n in ladder) or ladder[-1] >= min(TRUTH[scene]):
-                continue
-            truth = float(np.mean(fine))
-            drawn = [draw(of, ladder, truth, options.seeds, rng) for _ in range(options.draws)]
-            total += drawn
-            mean, one, beyond = (np.array([getattr(d, what) for d in drawn]) for what in ("mean", "one", "beyond"))
-            means = [np.mean(of[n]) / truth - 1 for n in ladder]
-            print(f"{scene:7}{name:12}{str(ladder):18} mean {100 * np.mean(mean >= 1):3.0f} % ratio {np.median(mean):5.2f}  "
-                  f"one {100 * np.mean(one >= 1):3.0f} % {np.median(one):5.2f}  beyond {100 * np.mean(beyond >= 1):3.0f} % "
-                  f"{np.median(beyond):5.2f}  bias " + " ".join(f"{100 * m:+.1f}" for m in means)
-                  + "  " + ",".join(f"{v}:{k}" for v, k in zip(*np.unique([d.verdict for d in drawn], return_counts=True))))
-    for what in ("mean", "one", "beyond"):
-        ratio = np.array([getattr(d, what) for d in total])
-        ratio = ratio[np.isfinite(ratio)]
-        print(f"{what}: {len(ratio)} held {100 * np.mean(ratio >= 1):.0f} %, at most 3 times too wide "
-              f"{100 * np.mean(ratio <= 3):.0f} %")
+def draw_all(values: Values, draws: int) -> list[Drawn]:
+    rng = np.random.default_rng(1)
+    return [draw(values, *case, rng) for case in cases() for _ in range(draws)]
 
 
-if __name__ == "__main__":
-    main()
+def held(drawn: Iterable[Drawn], what: str) -> tuple[float, float, float]:
+    """Share of the errors that are below the stated one, share of the stated ones that are at most three times the true one, and the
+    median of that ratio."""
+    pairs = np.array([getattr(one, what) for one in drawn])
+    ratio = pairs[:, 1] / np.maximum(pairs[:, 0], 1e-12)
+    return float(np.mean(ratio >= 1)), float(np.mean(ratio <= 3)), float(np.median(ratio))
+
+
+def cost_forecasts(rows: list[dict[str, Any]]) -> list[tuple[str, tuple[int, ...], int, float, float]]:
+    """Scene, ladder, finer resolution, CPU s of a run as forecast and as it was (the median)."""
+    by: dict = defaultdict(lambda: defaultdict(list))
+    for row in rows:
+        rest = math.nan if row["cpu_to_rest"] is None else row["cpu_to_rest"]
+        by[row["scene"]][row["resolution"]].append(runs.Measured(
+            1 / row["resolution"], row["seed"], row["particles"], row["steps"], row["cpu_seconds"], rest, {}))
+    found = []
+    for scene, ladders in LADDERS.items():
+        for ladder in ladders:
+            cost = ladder_costs.Cost([run for n in ladder for run in by[scene][n][:SEEDS]])
+            found += [(scene, ladder, n, cost.seconds(1 / n), float(np.median([run.cpu_seconds for run in by[scene][n]])))
+                      for n in sorted(by[scene]) if ladder[-1] < n <= 2 * ladder[-1]]
+    return found

@@ -8,10 +8,10 @@ import warnings
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Mapping, Sequence
 
-from ._errors import ArgumentError, number, whole
+from ._errors import ArgumentError, ArgumentTypeError, near_match, number, whole
 from ._report_ladder import ROUNDED, Cost, Sides, given
-from ._report_result import Report
-from ._report_runs import Measured, OutOfTime, Quantity, checked, measure, standard
+from ._report_result import ASKED, Report
+from ._report_runs import QUANTITIES, REST, Measured, OutOfTime, Quantity, checked, measure, standard
 from ._scene import Scene, scene_of
 
 LEVELS = 4
@@ -177,6 +177,10 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
     if not (2 <= seeds <= 100 and 1 <= workers <= 64):
         raise ArgumentError(f"seeds = {seeds}, workers = {workers}: expected 2 to 100 and 1 to 64")
     own = checked({} if quantities is None else quantities)
+    wanted = _names(of, own)
+    if any(part.kind == "particles" for part in scene._parts):
+        raise ArgumentError(f"{scene.name}: has particles given one by one, whose spacing is theirs: expected a scene that can be "
+                            "built at any spacing")
     sides = Sides(scene)
     named = None if spacings is None else given(spacings)
     bar = _Bar(budget, progress)
@@ -198,7 +202,19 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
                             f"{1.3 * budget - 0.3 * study.left():.2g} s, or {1.3 * 2 * sum(map(study.seconds, ladder)):.2g} s; the "
                             "machine may be busy")
     return Report(scene, end, accuracy, budget, time.monotonic() - study.begin, study.runs, enough, start, study.plan, own,
-                  tuple(dict.fromkeys(str(one.message) for one in caught)), of)
+                  tuple(dict.fromkeys(str(one.message) for one in caught)), wanted)
+
+
+def _names(of: Sequence[str] | None, own: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The quantities that an accuracy is asked of."""
+    if of is None:
+        return ASKED
+    if isinstance(of, str) or not isinstance(of, Sequence) or not of:
+        raise ArgumentTypeError(f"of = {of!r:.80}: expected a list of names of quantities")
+    for name in of:
+        if name not in (valid := [*QUANTITIES, REST, *own]):
+            raise ArgumentError(f"of: {name!r:.80}: {near_match(str(name), valid)}")
+    return tuple(of)
 
 
 def _start(scene: Scene, spacing: float, own: Mapping[str, Quantity]) -> dict[str, float]:
@@ -213,10 +229,10 @@ def _ladder(study: _Study, sides: Sides, named: list[float] | None, seeds: int) 
     if named is not None:
         return named
     coarsest = sides.coarsest
-    for n in (coarsest, 2 * coarsest):
-        if n == coarsest or study.seconds(sides.spacing(n)) < 0.1 * study.left():
-            study.run([(sides.spacing(n), 1)])
+    study.run([(sides.spacing(coarsest), 1)])
     if not study.runs:
         raise ArgumentError(f"budget = {study.budget:g} s: not one run at a spacing of {sides.spacing(coarsest):.3g} m was done: expected "
                             "many times more, or a shorter end")
+    if study.seconds(sides.spacing(2 * coarsest)) < 0.1 * study.left():
+        study.run([(sides.spacing(2 * coarsest), 1)])
     return _choose(study, sides, seeds)

@@ -2,12 +2,10 @@
 from __future__ import annotations
 
 import html
-import math
 import os
 from typing import TYPE_CHECKING, Sequence
 
 from ._report_runs import QUANTITIES, REST
-from ._report_statistics import CONVERGES, WITHIN_SCATTER
 from ._report_svg import COLOURS, Picture, bars
 from ._state import MARKS
 

@@ -11,12 +11,13 @@ from ._errors import ArgumentError, FileError, near_match, number
 from ._library import lib, text_of
 from ._report_ladder import Cost, Sides
 from ._report_runs import QUANTITIES, REST, Measured
-from ._report_statistics import CONVERGES, DIVERGES, IRREGULAR, WITHIN_SCATTER, Convergence
+from ._report_statistics import CONVERGES, DIVERGES, IRREGULAR, Convergence
 from ._scene import Scene
 from ._state import MARKS, PlanEntry
 
 FORMAT = 1  # of the JSON file
 MAIN = ("peak_height", "width_50", "width_90", "width_98", REST)
+ASKED = ("peak_height", "width_90")
 MOST_RUNS = 16  # that a recommendation asks for
 NOT_REACHED = "not in every run"  # a quantity that some runs do not have
 
@@ -67,7 +68,7 @@ class Report:
 
     def __init__(self, scene: Scene, end: float, accuracy: float, budget: float, seconds: float, runs: Sequence[Measured],
                  spacings: Sequence[float], start: Mapping[str, float], plan: Sequence[PlanEntry], own: Mapping[str, Any],
-                 warnings: Sequence[str], of: Sequence[str] | None):
+                 warnings: Sequence[str], of: Sequence[str]):
         self.name, self.end, self.accuracy, self.budget, self.seconds = scene.name, end, accuracy, budget, seconds
         self.runs, self.plan, self.warnings = tuple(runs), tuple(plan), tuple(warnings)
         self.spacings = tuple(sorted(spacings, reverse=True))
@@ -80,11 +81,7 @@ class Report:
             if all(math.isfinite(value) for some in values.values() for value in some):
                 self.convergence[name] = Convergence(values)
         self.scale = {name: self._scale(name) for name in self.convergence}
-        wanted = tuple(of) if of is not None else ("peak_height", "width_90")
-        for name in wanted:
-            if name not in (*MAIN, *self.own, *MARKS.values()):
-                raise ArgumentError(f"of: {name!r}: {near_match(name, [*MAIN, *self.own, *MARKS.values()])}")
-        self.recommendation = self.recommend(accuracy, wanted)
+        self.recommendation = self.recommend(accuracy, of)
         finer = [self.spacings[-1] / factor for factor in (1.4, 2.0, 2.8)]
         self.rows = [self._row(h) for h in (*self.spacings, *finer)]
 
@@ -115,7 +112,7 @@ class Report:
         return Row(spacing, len(there), particles, seconds,
                    {name: one.error(spacing) for name, one in self.convergence.items()})
 
-    def recommend(self, accuracy: float, of: Sequence[str] = ("peak_height", "width_90")) -> Recommendation:
+    def recommend(self, accuracy: float, of: Sequence[str] = ASKED) -> Recommendation:
         """The cheapest spacing and number of runs by which these quantities err by less than `accuracy` (relative) in 9 of 10
         cases: from the coarsest spacing that was run to a fourth of the finest one."""
         accuracy = number("accuracy", accuracy)

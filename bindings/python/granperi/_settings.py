@@ -46,7 +46,7 @@ class Settings:
                 f"horizon {self.horizon:g} spacings, sleep {self.sleep}\n"
                 f"measured: one run erred by {100 * self.peak_error:.1f} % in the peak, {100 * self.runout_error:.1f} % in the "
                 f"run-out of 90 % of the mass, in the worst of three collapses; {self.cpu_seconds:.2g} CPU s to 1 s with a = 1.25\n"
-                "another scene errs otherwise: compare two spacings of it, granperi.estimate")
+                "another scene errs otherwise: granperi.report tells what")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,7 +80,7 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Setting
         scene.config = granperi.settings("standard", scene).config(scene.config)
 
     Errors and cost are those of three collapses of glass beads (docs/settings.md): what another scene errs by, only runs of it
-    at two spacings tell, as granperi.estimate makes them; its cost grows as its particles and its steps. With granular fluidity
+    at several spacings tell, as granperi.report makes them; its cost grows as its particles and its steps. With granular fluidity
     take the smaller of this spacing and half a grain. sleep = 1 ends creep slower than 0.006 sqrt(g spacing): set 0 where creep
     is the question.
 
