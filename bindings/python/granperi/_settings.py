@@ -55,17 +55,20 @@ class _Level:
 
     spacings: int
     horizon: float
+    sleep: int
     aim: float
     peak_error: float
     runout_error: float
     cpu_seconds: float
 
 
+# aims: written by bench/performance/aims.py
 _LEVELS = {
-    "draft": _Level(10, 4.0, 0.10, 0.081, 0.071, 0.10),
-    "standard": _Level(15, 4.0, 0.05, 0.042, 0.029, 0.32),
-    "fine": _Level(25, 3.0, 0.02, 0.016, 0.014, 0.93),
+    "draft": _Level(10, 4.0, 1, 0.10, 0.081, 0.071, 0.10),
+    "standard": _Level(15, 4.0, 1, 0.05, 0.042, 0.029, 0.32),
+    "fine": _Level(25, 3.0, 1, 0.02, 0.016, 0.014, 0.93),
 }
+# /aims
 
 
 def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Settings:
@@ -95,5 +98,5 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Setting
     if not (math.isfinite(length) and length > 0):
         raise ArgumentError(f"of = {length:g}: expected a finite length above 0 m, or a scene")
     level = _LEVELS[name]
-    return Settings(name, length, length / level.spacings, level.horizon, 1, level.aim, level.peak_error, level.runout_error,
-                    level.cpu_seconds)
+    return Settings(name, length, length / level.spacings, level.horizon, level.sleep, level.aim, level.peak_error,
+                    level.runout_error, level.cpu_seconds)
