@@ -19,10 +19,11 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 DATA = HERE / "aims.json"
-# Of each scene the spacings over its width that make those of the level over its smaller side, and the number of runs.
-RESOLUTIONS = {"draft": {"a125": (16, 24), "a5": (10, 4), "one": (14, 4)},
-               "standard": {"a125": (24, 16), "a5": (15, 4), "one": (21, 4)},
-               "fine": {"a125": (40, 12), "a5": (25, 4), "one": (36, 4)}}
+# Of each scene the spacings over its width that make those of the level over its smaller side, and the number of runs. One side: those
+# that divide both sides (21 in place of 20 rounds the height by 2 %, and its run-out errs by 5.9 %).
+RESOLUTIONS = {"draft": {"a125": (16, 24), "a5": (10, 4), "one": (20, 4)},
+               "standard": {"a125": (24, 16), "a5": (15, 4), "one": (20, 4)},
+               "fine": {"a125": (40, 12), "a5": (25, 4), "one": (30, 4)}}
 
 Levels = dict[str, dict[str, Any]]
 
