@@ -35,7 +35,8 @@ Values = dict[tuple[str, str], dict[int, list[float]]]
 
 @dataclasses.dataclass(frozen=True)
 class Drawn:
-    """One report: relative true and stated error of the mean and of one more run at its finest spacing, and of one run at a finer one."""
+    """One report: relative true and stated error of the mean and of one more run at its finest spacing, and of one run at a
+    finer one."""
 
     scene: str
     quantity: str

@@ -119,7 +119,8 @@ class _Study:
 
 
 def _choose(study: _Study, sides: Sides, seeds: int) -> list[float]:
-    """The finest ladder that the budget has room for, with two runs of each spacing at least; else the error says what it takes."""
+    """The finest ladder that the budget has room for, with two runs of each spacing at least; else the error says what it
+    takes."""
     room = KEPT_BACK * study.left() * study.workers
     best: tuple[float, list[float]] | None = None
     least = math.inf
@@ -152,19 +153,19 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
         print(report)
         report.write("collapse.html")  # one page with pictures, or .json
 
-    Runs the scene at three or four spacings, several times each, within `budget` [s of wall-clock time]. The runs of one spacing
-    begin with particles 0.01 spacings beside each other's (or by the scene's own jitter): what they differ by is chance. From the
-    means follow the observed order and the limit of zero spacing, and from both the error of one run, which holds in 9 of 10
-    cases (docs/report.md). What does not converge is said to.
+    Runs the scene at three or four spacings, several times each, within `budget` [s of wall-clock time]. The runs of one
+    spacing begin with particles 0.01 spacings beside each other's (or by the scene's own jitter): what they differ by is chance.
+    From the means follow the observed order and the limit of zero spacing, and from both the error of one run, which holds in 9
+    of 10 cases (docs/report.md). What does not converge is said to.
 
-    accuracy: relative error of one run or of the mean of a few, for which Report.recommendation names spacing, number of runs and
-    cost; of: the quantities that it is about ["peak_height", "width_90"]. end [s]: of the runs [that of the scene]. spacings [m]: at
-    least three [as fine as the budget allows, down to half of the scene's spacing, so that the columns' sides are whole numbers of
-    them as far as possible]. seeds: runs of each spacing, 2 to 100. quantities: more of them, {"name": function of the Simulation at
-    its end}. workers: runs beside each other, 1 to 64. progress: a bar (tqdm).
+    accuracy: relative error of one run or of the mean of a few, for which Report.recommendation names spacing, number of runs
+    and cost; of: the quantities that it is about ["peak_height", "width_90"]. end [s]: of the runs [that of the scene].
+    spacings [m]: at least three [as fine as the budget allows, down to half of the scene's spacing, so that the columns' sides
+    are whole numbers of them as far as possible]. seeds: runs of each spacing, 2 to 100. quantities: more of them, {"name":
+    function of the Simulation at its end}. workers: runs beside each other, 1 to 64. progress: a bar (tqdm).
 
-    ArgumentError: a budget in which not two runs at each of three spacings are possible; a scene with particles given one by one,
-    whose spacing is theirs.
+    ArgumentError: a budget in which not two runs at each of three spacings are possible; a scene with particles given one by
+    one, whose spacing is theirs.
     """
     scene = scene_of(scene)
     end = scene.run.end if end is None else number("end", end)
@@ -178,9 +179,9 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
         raise ArgumentError(f"seeds = {seeds}, workers = {workers}: expected 2 to 100 and 1 to 64")
     own = checked({} if quantities is None else quantities)
     wanted = _names(of, own)
-    if any(part.kind == "particles" for part in scene._parts):
-        raise ArgumentError(f"{scene.name}: has particles given one by one, whose spacing is theirs: expected a scene that can be "
-                            "built at any spacing")
+    if scene.fixed_spacing:
+        raise ArgumentError(f"{scene.name}: has particles given one by one, whose spacing is theirs: expected a scene that can "
+                            "be built at any spacing")
     sides = Sides(scene)
     named = None if spacings is None else given(spacings)
     bar = _Bar(budget, progress)
@@ -231,8 +232,8 @@ def _ladder(study: _Study, sides: Sides, named: list[float] | None, seeds: int) 
     coarsest = sides.coarsest
     study.run([(sides.spacing(coarsest), 1)])
     if not study.runs:
-        raise ArgumentError(f"budget = {study.budget:g} s: not one run at a spacing of {sides.spacing(coarsest):.3g} m was done: expected "
-                            "many times more, or a shorter end")
+        raise ArgumentError(f"budget = {study.budget:g} s: not one run at a spacing of {sides.spacing(coarsest):.3g} m was done: "
+                            "expected many times more, or a shorter end")
     if study.seconds(sides.spacing(2 * coarsest)) < 0.1 * study.left():
         study.run([(sides.spacing(2 * coarsest), 1)])
     return _choose(study, sides, seeds)

@@ -45,7 +45,8 @@ def body(report: "Report") -> str:
              *(f"<p>{html.escape(text)}</p>" for text in report.advice()),
              "<h2>What a run errs by, and what it takes</h2>", _error_picture(report), _rows(report),
              "<h2>Does it converge?</h2>", _verdicts(report), '<div class="pair">', *_convergence_pictures(report), "</div>",
-             "<p>Small dots: runs. Full dots: their means, with two standard errors. At spacing 0: what they tend to, with its error.</p>",
+             "<p>Small dots: runs. Full dots: their means, with two standard errors. At spacing 0: what they tend to, with its "
+             "error.</p>",
              "<h2>What a step is made of</h2>", _stages(report), _marks(report), _left_out(report), _warnings(report), "</div>"]
     return "\n".join(part for part in parts if part)
 
@@ -78,8 +79,8 @@ def _error_picture(report: "Report") -> str:
     curves = {name: [(row.cpu_seconds, 100 * row.errors[name] / report.scale[name]) for row in report.rows] for name in names}
     x = [at for curve in curves.values() for at, _ in curve]
     y = [error for curve in curves.values() for _, error in curve]
-    picture = Picture((min(x) / 1.3, max(x) * 1.3), (max(min(y), 1e-3) / 1.3, max(y) * 1.3), "CPU s of one run", "error of one run, %",
-                      log_x=True, log_y=True, right=190)
+    picture = Picture((min(x) / 1.3, max(x) * 1.3), (max(min(y), 1e-3) / 1.3, max(y) * 1.3), "CPU s of one run",
+                      "error of one run, %", log_x=True, log_y=True, right=190)
     picture.level(100 * report.accuracy, f"{100 * report.accuracy:g} % asked for")
     for colour, name in zip(COLOURS, names):
         run = [point for point, row in zip(curves[name], report.rows) if row.runs]
@@ -110,7 +111,8 @@ def _verdict_row(report: "Report", name: str) -> list[str]:
         return [_name(name), "–", "–", "–", verdict]
     one = report.convergence[name]
     unit = QUANTITIES[name][0] if name in QUANTITIES else "s" if name == REST else ""
-    return [_name(name), f"{one.limit:.5g} ± {one.limit_error:.2g} {unit}".rstrip(), f"{one.levels[-1].scatter:.2g}", order or "–", verdict]
+    limit = f"{one.limit:.5g} ± {one.limit_error:.2g} {unit}".rstrip()
+    return [_name(name), limit, f"{one.levels[-1].scatter:.2g}", order or "–", verdict]
 
 
 def _verdicts(report: "Report") -> str:
@@ -128,7 +130,7 @@ def _convergence_pictures(report: "Report") -> list[str]:
         room = 0.08 * (high - low) or 0.01 * abs(high) or 1.0
         unit = QUANTITIES[name][0] if name in QUANTITIES else "s" if name == REST else ""
         most = 1080 * report.spacings[0]
-        picture = Picture((-0.04 * most, most), (low - room, high + room), "spacing, mm", f"{_name(name)}{', ' + unit if unit else ''}",
+        picture = Picture((-0.04 * most, most), (low - room, high + room), "spacing, mm", _name(name) + (f", {unit}" if unit else ""),
                           title=f"{_name(name)}: {one.verdict}", width=520, height=380)
         picture.points(dots, colour, 2.5)
         means = [(1000 * level.spacing, level.mean) for level in one.levels]
@@ -143,8 +145,8 @@ def _convergence_pictures(report: "Report") -> list[str]:
 
 
 def _stages(report: "Report") -> str:
-    stages = sorted(((entry.name.replace("_", " "), entry.seconds) for entry in report.plan if entry.kind == 0 and entry.active),
-                    key=lambda entry: -entry[1])
+    stages = sorted(((entry.name.replace("_", " "), entry.seconds) for entry in report.plan
+                     if entry.kind == 0 and entry.active), key=lambda entry: -entry[1])
     total = sum(seconds for _, seconds in stages)
     if not total > 0:
         return ""
@@ -153,8 +155,9 @@ def _stages(report: "Report") -> str:
     rest = 100 - sum(share for _, share in shown)
     if rest >= 0.05:
         shown.append((f"{len(shares) - len(shown)} others", rest))
-    return (f"<p>Wall-clock time of the stages at the finest spacing, {report.cost.per_step(report.spacings[-1]) * 1e9:.0f} ns of CPU time "
-            "per particle and step in all.</p>" + bars(shown, "%", "time of each stage"))
+    each = 1e9 * report.cost.per_step(report.spacings[-1])
+    return (f"<p>Wall-clock time of the stages at the finest spacing, {each:.0f} ns of CPU time per particle and step in "
+            "all.</p>" + bars(shown, "%", "time of each stage"))
 
 
 def _marks(report: "Report") -> str:
@@ -164,7 +167,8 @@ def _marks(report: "Report") -> str:
 
 
 def _left_out(report: "Report") -> str:
-    rows = [[entry.name.replace("_", " "), "field" if entry.kind else "stage", entry.reason] for entry in report.plan if not entry.active]
+    rows = [[entry.name.replace("_", " "), "field" if entry.kind else "stage", entry.reason]
+            for entry in report.plan if not entry.active]
     table = _table(["what", "kind", "why"], rows).replace("<td>stage</td><td>", '<td>stage</td><td class="text">').replace(
         "<td>field</td><td>", '<td>field</td><td class="text">')
     return _details("What the scene leaves out", f"{len(rows)} stages and fields cost this scene nothing.", table) if rows else ""

@@ -19,6 +19,7 @@ FORMAT = 1  # of the JSON file
 MAIN = ("peak_height", "width_50", "width_90", "width_98", REST)
 ASKED = ("peak_height", "width_90")
 MOST_RUNS = 16  # that a recommendation asks for
+OTHERS = {REST: ("s", "time since when the kinetic energy has been below 1e-4 of its largest")}
 NOT_REACHED = "not in every run"  # a quantity that some runs do not have
 
 
@@ -126,7 +127,7 @@ class Report:
         for name in of:
             if name not in self.convergence:
                 return none(f"{name} is {NOT_REACHED}: run longer, to a later end")
-            if (verdict := self.convergence[name].verdict) == DIVERGES:
+            if self.convergence[name].verdict == DIVERGES:
                 return none(f"{name} does not converge: no spacing is fine enough")
         best: Recommendation | None = None
         for spacing in self._candidates():
@@ -140,8 +141,8 @@ class Report:
         if best is None:
             least = self.spacings[-1] / 4
             worst = max(of, key=lambda name: self.error(name, least))
-            return none(f"not even a spacing of {least:.3g} m, {self.cost.seconds(least):.2g} CPU s a run, is sure to: {worst} may err by "
-                        f"{100 * self.error(worst, least):.1f} %; a report with a larger budget knows more")
+            return none(f"not even a spacing of {least:.3g} m, {self.cost.seconds(least):.2g} CPU s a run, is sure to: {worst} may "
+                        f"err by {100 * self.error(worst, least):.1f} %; a report with a larger budget knows more")
         return best
 
     def _candidates(self) -> list[float]:
@@ -168,8 +169,8 @@ class Report:
                 said.append("sleep = 1 leaves out of the work what rests.")
         rounded = self._sides.rounded(self._config.spacing)
         if rounded > 0.01:
-            said.append(f"The scene's spacing of {self._config.spacing:.4g} m rounds the side of a column by {100 * rounded:.1f} %: take a "
-                        "whole fraction of the sides.")
+            said.append(f"The scene's spacing of {self._config.spacing:.4g} m rounds the side of a column by {100 * rounded:.1f} %: "
+                        "take a whole fraction of the sides.")
         return said
 
     def _judged(self, name: str) -> tuple[str, str]:
@@ -206,8 +207,7 @@ class Report:
         """All of it as numbers, texts, lists and dicts, as in the JSON file; what is not there is None."""
         quantities = {}
         for name in (*MAIN, *self.own, *MARKS.values()):
-            unit, meaning = QUANTITIES[name][:2] if name in QUANTITIES else ("s", "time from which all rests") if name == REST else (
-                "", "the host's own")
+            unit, meaning = QUANTITIES[name][:2] if name in QUANTITIES else OTHERS.get(name, ("", "the host's own"))
             verdict, _ = self._judged(name)
             entry: dict[str, Any] = {"unit": unit, "meaning": meaning, "verdict": verdict}
             if name in self.convergence:
@@ -221,8 +221,8 @@ class Report:
         stages = [{"name": entry.name, "seconds": entry.seconds, "calls": entry.calls} for entry in self.plan
                   if entry.kind == 0 and entry.active]
         return _plain({
-            "format": FORMAT, "granperi": text_of(lib.gp_version_string()), "scene": self.name, "end": self.end, "budget": self.budget,
-            "seconds": self.seconds, "spacings": list(self.spacings),
+            "format": FORMAT, "granperi": text_of(lib.gp_version_string()), "scene": self.name, "end": self.end,
+            "budget": self.budget, "seconds": self.seconds, "spacings": list(self.spacings),
             "rows": [dataclasses.asdict(row) for row in self.rows], "quantities": quantities,
             "recommendation": dataclasses.asdict(self.recommendation), "advice": self.advice(), "warnings": list(self.warnings),
             "stages": stages,

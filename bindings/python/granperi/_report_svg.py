@@ -45,7 +45,8 @@ class Picture:
         self._path(f"M{x0} {y1}V{y0}H{x1}", "#333", 1.5)
         self.text((x0 + x1) / 2, height - 10, x_label, anchor="middle")
         middle = (y0 + y1) / 2
-        self.parts.append(f'<text transform="translate(20 {middle:.0f}) rotate(-90)" text-anchor="middle">{html.escape(y_label)}</text>')
+        self.parts.append(f'<text transform="translate(20 {middle:.0f}) rotate(-90)" text-anchor="middle">'
+                          f"{html.escape(y_label)}</text>")
 
     def _px(self, value: float) -> float:
         return self._place(value, self.x, self.log_x, self.left, self.width - self.right)
@@ -117,7 +118,8 @@ def bars(entries: Sequence[tuple[str, float]], unit: str, label: str, width: int
     for k, (name, value) in enumerate(entries):
         y = 30 * k + 22
         long = 430 * value / most
-        parts.append(f'<text x="300" y="{y}" text-anchor="end">{html.escape(name)}</text><rect x="310" y="{y - 16}" width="{long:.1f}" '
-                     f'height="20" fill="{COLOURS[0]}"/><text x="{318 + long:.1f}" y="{y}">{value:.1f} {html.escape(unit)}</text>')
+        parts += [f'<text x="300" y="{y}" text-anchor="end">{html.escape(name)}</text>',
+                  f'<rect x="310" y="{y - 16}" width="{long:.1f}" height="20" fill="{COLOURS[0]}"/>',
+                  f'<text x="{318 + long:.1f}" y="{y}">{value:.1f} {html.escape(unit)}</text>']
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" aria-label="{html.escape(label)}" '
             f'font-family="system-ui, sans-serif" font-size="{FONT}" fill="#222">' + "".join(parts) + "</svg>")

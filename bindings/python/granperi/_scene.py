@@ -174,10 +174,15 @@ class Scene:
                 raise SceneError(f"{part.where()}: {error}") from None
         return sim
 
+    @property
+    def fixed_spacing(self) -> bool:
+        """Whether it has particles given one by one, whose spacing is theirs."""
+        return any(part.kind == "particles" for part in self._parts)
+
     def smallest_side(self) -> float:
         """The smallest width or height [m] of the scene's columns. ArgumentError: it has none, or particles given one by one,
         whose spacing is theirs."""
-        if any(part.kind == "particles" for part in self._parts):
+        if self.fixed_spacing:
             raise ArgumentError(f"{self.name}: has particles given one by one, whose spacing is theirs: expected a scene of "
                                 "columns, or a length in m")
         sides = self.column_sides()

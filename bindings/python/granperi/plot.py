@@ -213,10 +213,10 @@ def _surfaces(shots: Sequence[Snapshot], axes: Axes | None, labels: "list[str] |
     if axes is None:
         axes = _scene_axes(None, (left, right, bottom, top), bar=False)
         axes.set_title("free surface", loc="left", fontsize=_SMALL)
-        drawn: "list[np.ndarray] | None" = None
     else:  # room for all that is drawn, at the size that it has
         (left_before, right_before), (bottom_before, top_before) = axes.get_xlim(), axes.get_ylim()
-        left, right, bottom, top = min(left, left_before), max(right, right_before), min(bottom, bottom_before), max(top, top_before)
+        left, right = min(left, left_before), max(right, right_before)
+        bottom, top = min(bottom, bottom_before), max(top, top_before)
         figure, inches = axes.figure, axes.figure.get_size_inches()
         grown = (top - bottom) / (top_before - bottom_before) * (right_before - left_before) / (right - left)
         if len(figure.axes) == 1 and grown > 1:  # a figure of our own kind: higher, not narrower
@@ -280,8 +280,9 @@ def fronts(source: Any, axes: Axes | None = None) -> Axes:
     outermost grains, which a single one sets, these converge with the spacing."""
     past = history(source)
     axes = _curve_axes(axes, "x (m)", "t (s)")
-    for low, high, share, colour in (("x_q01", "x_q99", 98, "#d7e4f0"), ("x_q05", "x_q95", 90, "#a9c6e0"), ("x_q25", "x_q75", 50, "#6a9cc8")):
-        axes.fill_betweenx(past.time, getattr(past, low), getattr(past, high), color=colour, linewidth=0, label=f"{share} % of the mass")
+    for low, high, share, colour in ((past.x_q01, past.x_q99, 98, "#d7e4f0"), (past.x_q05, past.x_q95, 90, "#a9c6e0"),
+                                     (past.x_q25, past.x_q75, 50, "#6a9cc8")):
+        axes.fill_betweenx(past.time, low, high, color=colour, linewidth=0, label=f"{share} % of the mass")
     axes.plot(past.x_q05, past.time, color="#0072b2", linewidth=2, label="5 and 95 %")
     axes.plot(past.x_q95, past.time, color="#0072b2", linewidth=2)
     axes.plot(past.x_q50, past.time, color="black", linewidth=1.5, label="half of it")

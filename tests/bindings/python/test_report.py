@@ -47,7 +47,8 @@ class Machine:
         values = {name: value * (1 - 2e-2 * fine**-1.5 + 1e-3 * self.rng.normal()) for name, value in LIMIT.items()}
         values |= {"rest_time": 0.3 + 0.001 * self.rng.normal(), **dict.fromkeys(granperi._state.MARKS.values(), 0.01)}
         values |= dict.fromkeys(quantities, 1 / fine)
-        plan = [granperi.PlanEntry("force", "always", 0, True, 0, cpu, steps), granperi.PlanEntry("fluidity", "no amplitude", 0, False, 0, 0, 0)]
+        plan = [granperi.PlanEntry("force", "always", 0, True, 0, cpu, steps),
+                granperi.PlanEntry("fluidity", "no amplitude", 0, False, 0, 0, 0)]
         return _report_runs.Measured(spacing, seed, particles, steps, cpu, 0.6 * cpu, values), plan
 
 
