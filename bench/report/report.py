@@ -146,7 +146,7 @@ et al. 2008, J. Fluids Eng. 130, 078001). Bounded orders are from Eça & Hoekstr
 by many fits from Rider, Witkowski, Kamm & Wildey (2016, J. Comput. Phys. 307, 146).
 
 "Does not converge": the differences of the means do not shrink as the spacing does (an order below 0.3 has 9/10 of the weight, of all
-from -0.5 to 3), and the last is more than chance. "Goes up and down": there are differences of both signs beyond chance.
+from -0.5 to 3), and the last is more than chance; "may not converge": it has half of the weight. "Goes up and down": there are differences of both signs beyond chance.
 
 ## By scene
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import html
 import os
+import re
 from typing import TYPE_CHECKING, Sequence
 
 from ._report_runs import QUANTITIES, REST
@@ -21,7 +22,8 @@ STYLE = """
 .granperi-report table { border-collapse: collapse; margin: .5rem 0 } .granperi-report td, .granperi-report th
 { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap }
 .granperi-report td:first-child, .granperi-report th:first-child { text-align: left }
-.granperi-report td.text { text-align: left; white-space: normal } .granperi-report tr.forecast { color: #777 }
+.granperi-report .words td:last-child, .granperi-report .words th:last-child { text-align: left; white-space: normal }
+.granperi-report tr.forecast { color: #777 }
 .granperi-report .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(400px, 100%), 1fr)); gap: .5rem }
 """
 NAMES = {"peak_height": "peak", "width_50": "width, 50 %", "width_90": "width, 90 %", "width_98": "width, 98 %",
@@ -63,13 +65,14 @@ def _shown(report: "Report") -> list[str]:
     return [name for name in (*NAMES, *report.own) if name in report.convergence and report.scale[name] > 0]
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]], classes: Sequence[str] = ()) -> str:
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]], classes: Sequence[str] = (), words: bool = False) -> str:
+    """classes: of the rows; words: the last column is text."""
     text = "".join(f"<th>{html.escape(cell)}</th>" for cell in head)
     lines = [f"<tr>{text}</tr>"]
     for k, row in enumerate(rows):
         kind = f' class="{classes[k]}"' if classes and classes[k] else ""
         lines.append(f"<tr{kind}>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>")
-    return '<div class="wide"><table>' + "\n".join(lines) + "</table></div>"
+    return f'<div class="wide"><table{" class=words" if words else ""}>' + "\n".join(lines) + "</table></div>"
 
 
 def _error_picture(report: "Report") -> str:
@@ -117,7 +120,7 @@ def _verdict_row(report: "Report", name: str) -> list[str]:
 
 def _verdicts(report: "Report") -> str:
     return _table(["quantity", "limit of zero spacing", "scatter of one run", "observed order", "verdict"],
-                  [_verdict_row(report, name) for name in (*NAMES, *report.own)])
+                  [_verdict_row(report, name) for name in (*NAMES, *report.own)], words=True)
 
 
 def _convergence_pictures(report: "Report") -> list[str]:
@@ -163,22 +166,25 @@ def _stages(report: "Report") -> str:
 def _marks(report: "Report") -> str:
     rows = [_verdict_row(report, name) for name in MARKS.values() if name in report.convergence]
     return _details("Marks of the mass", "x that has 1, 5, ... % of the mass on its left, in m.",
-                    _table(["mark", "limit of zero spacing", "scatter of one run", "observed order", "verdict"], rows)) if rows else ""
+                    _table(["mark", "limit of zero spacing", "scatter of one run", "observed order", "verdict"], rows,
+                           words=True)) if rows else ""
 
 
 def _left_out(report: "Report") -> str:
     rows = [[entry.name.replace("_", " "), "field" if entry.kind else "stage", entry.reason]
             for entry in report.plan if not entry.active]
-    table = _table(["what", "kind", "why"], rows).replace("<td>stage</td><td>", '<td>stage</td><td class="text">').replace(
-        "<td>field</td><td>", '<td>field</td><td class="text">')
+    table = _table(["what", "kind", "why"], rows, words=True)
     return _details("What the scene leaves out", f"{len(rows)} stages and fields cost this scene nothing.", table) if rows else ""
 
 
 def _warnings(report: "Report") -> str:
     if not report.warnings:
         return ""
-    return _details("What the library warned of", "At some of the spacings.",
-                    "<ul>" + "".join(f"<li>{html.escape(text)}</li>" for text in report.warnings) + "</ul>")
+    alike: dict[str, list[str]] = {}  # but for their numbers
+    for text in report.warnings:
+        alike.setdefault(re.sub(r"[-+]?\d[\d.e+-]*", "#", text), []).append(text)
+    items = [html.escape(texts[0]) + (f" (and {len(texts) - 1} alike)" if len(texts) > 1 else "") for texts in alike.values()]
+    return _details("What the library warned of", "At some of the spacings.", "<ul><li>" + "</li><li>".join(items) + "</li></ul>")
 
 
 def _details(title: str, text: str, content: str) -> str:

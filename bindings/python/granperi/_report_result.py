@@ -11,7 +11,7 @@ from ._errors import ArgumentError, FileError, near_match, number
 from ._library import lib, text_of
 from ._report_ladder import Cost, Sides
 from ._report_runs import QUANTITIES, REST, Measured
-from ._report_statistics import CONVERGES, DIVERGES, IRREGULAR, Convergence
+from ._report_statistics import CONVERGES, DIVERGES, IRREGULAR, UNSURE, Convergence
 from ._scene import Scene
 from ._state import MARKS, PlanEntry
 
@@ -156,7 +156,7 @@ class Report:
         said = []
         if spacing < 0.999 * self.spacings[-1]:
             said.append("extrapolated: finer than what was run")
-        said += [f"{name} goes up and down" for name in of if self.convergence[name].verdict == IRREGULAR]
+        said += [f"{name} {verdict}" for name in of if (verdict := self.convergence[name].verdict) in (IRREGULAR, UNSURE)]
         return ", ".join(said)
 
     def advice(self) -> list[str]:
@@ -179,7 +179,7 @@ class Report:
             return NOT_REACHED, ""
         one = self.convergence[name]
         order = f"{one.order:.1f} ({one.order_range[0]:.2g} to {one.order_range[1]:.2g})"
-        return one.verdict, order if one.verdict == CONVERGES else ""
+        return one.verdict, order if one.verdict in (CONVERGES, UNSURE) else ""
 
     def __str__(self) -> str:
         names = [name for name in (*MAIN, *self.own) if name in self.convergence]

@@ -22,8 +22,8 @@ LEAST = 0.2  # error at the finest spacing over what the means differ by, at lea
 UNFITTED = 0.03  # of the whole change of the means: what they may lie beside a power, where orders are told apart
 SAFETY = 1.645  # stated error over root mean square: 9 of 10 of a normal distribution are below
 
-CONVERGES, WITHIN_SCATTER, IRREGULAR, DIVERGES = ("converges", "the same within the scatter", "goes up and down",
-                                                  "does not converge")
+CONVERGES, WITHIN_SCATTER = "converges", "the same within the scatter"
+IRREGULAR, UNSURE, DIVERGES = "goes up and down", "may not converge", "does not converge"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -141,7 +141,7 @@ class Convergence:
             return IRREGULAR
         if not_shrinking > 0.9 and abs(steps[-1]) > 2.5:
             return DIVERGES
-        return CONVERGES
+        return UNSURE if not_shrinking > 0.5 else CONVERGES
 
     def _moments(self, spacing: float) -> tuple[float, float]:
         """Mean and mean square of the error of the mean at a spacing."""

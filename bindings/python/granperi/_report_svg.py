@@ -28,7 +28,8 @@ class Picture:
     def __init__(self, x: tuple[float, float], y: tuple[float, float], x_label: str, y_label: str, title: str = "",
                  width: int = 900, height: int = 480, log_x: bool = False, log_y: bool = False, right: int = 20):
         self.width, self.height = width, height
-        self.left, self.right, self.top, self.bottom = 88, right, 40 if title else 16, 62
+        longest = max(len(f"{value:g}") for value in ticks(*y, log_y) or [0])
+        self.left, self.right, self.top, self.bottom = 52 + 10 * longest, right, 40 if title else 16, 62
         self.x, self.y, self.log_x, self.log_y = x, y, log_x, log_y
         self.parts: list[str] = []
         x0, x1, y0, y1 = self.left, width - self.right, height - self.bottom, self.top
