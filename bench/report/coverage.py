@@ -21,14 +21,18 @@ LADDERS = {
     "a125": [(8, 16, 24), (8, 16, 24, 32), (16, 24, 32), (16, 24, 40)],
     "a5": [(6, 8, 12), (6, 8, 10, 12), (8, 12, 16), (8, 10, 12, 16)],
     "hopper": [(4, 5, 6, 8), (4, 6, 8), (5, 8, 12), (4, 6, 8, 12)],
+    "one_side": [(10, 20, 30), (10, 20, 30, 40), (20, 30, 40)],
+    "colliding": [(2, 3, 4), (2, 3, 4, 5), (3, 4, 5), (3, 4, 6)],
 }
-TRUTH = {"a125": (64, 96), "a5": (32, 48), "hopper": (20, 24)}
+LATER = ("one_side", "colliding")  # run once bounds and shares had been chosen by the others
+TRUTH = {"a125": (64, 96), "a5": (32, 48), "hopper": (20, 24), "one_side": (60, 80), "colliding": (8, 10)}
 QUANTITIES = {
     "a125": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
     "a5": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
     "hopper": ("peak_height", "width_50", "width_90", "width_98", "left"),
+    "one_side": ("peak_height", "x_q75", "x_q95", "x_q99", "rest_time"),
+    "colliding": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
 }
-FINER = {8: 12, 12: 16, 16: 24, 24: 32, 32: 48, 40: 48}  # a spacing that the report forecasts
 
 Values = dict[tuple[str, str], dict[int, list[float]]]
 
@@ -74,7 +78,7 @@ def draw(values: Values, scene: str, quantity: str, ladder: tuple[int, ...], rng
         sample[1 / n] = [of[n][k] for k in order[:take]]
         others[n] = [of[n][k] for k in order[take:]]
     found, n = statistics.Convergence(sample), ladder[-1]
-    finer = FINER[n]
+    finer = min(m for m in of if m >= 1.2 * n)
 
     def pair(value: float, stated: float) -> tuple[float, float]:
         return abs(value / right - 1), stated / abs(right)
@@ -85,9 +89,10 @@ def draw(values: Values, scene: str, quantity: str, ladder: tuple[int, ...], rng
                  pair(float(rng.choice(of[finer])), found.error(1 / finer)))
 
 
-def draw_all(values: Values, draws: int) -> list[Drawn]:
+def draw_all(values: Values, draws: int, later: bool = False) -> list[Drawn]:
+    """later: of the scenes that had no part in the choices, else of the others."""
     rng = np.random.default_rng(1)
-    return [draw(values, *case, rng) for case in cases() for _ in range(draws)]
+    return [draw(values, *case, rng) for case in cases() if (case[0] in LATER) == later for _ in range(draws)]
 
 
 def held(drawn: Iterable[Drawn], what: str) -> tuple[float, float, float]:

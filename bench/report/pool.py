@@ -34,6 +34,8 @@ STUDIES = {
     "a125": Study(0.08, {8: 12, 16: 12, 24: 12, 32: 8, 40: 6, 48: 4, 64: 4, 96: 2}),
     "a5": Study(0.08, {6: 12, 8: 12, 10: 12, 12: 12, 16: 8, 20: 6, 24: 4, 32: 3, 48: 1}),
     "hopper": Study(0.05, {4: 12, 5: 12, 6: 12, 8: 10, 10: 8, 12: 5, 16: 4, 20: 3, 24: 1}),
+    "one_side": Study(0.2, {10: 8, 20: 8, 30: 8, 40: 6, 50: 4, 60: 3, 80: 1}),
+    "colliding": Study(0.02, {2: 8, 3: 8, 4: 8, 5: 6, 6: 4, 8: 3, 10: 1}),
 }
 QUANTITIES = {"hopper": {"left": lambda sim: np.mean(sim.y > 0)}}  # the share of the mass that is still in the bin
 

@@ -7,8 +7,9 @@ import math
 import os
 from typing import Any, Mapping, Sequence
 
-from ._errors import ArgumentError, FileError, near_match, number
+from ._errors import ArgumentError, FileError, StateError, near_match, number
 from ._library import lib, text_of
+from ._objects import Config
 from ._report_ladder import Cost, Sides
 from ._report_runs import QUANTITIES, REST, Measured
 from ._report_statistics import CONVERGES, DIVERGES, IRREGULAR, UNSURE, Convergence
@@ -48,6 +49,12 @@ class Recommendation:
     cpu_seconds: float
     errors: dict[str, float]
     reason: str
+
+    def config(self, config: Config) -> Config:
+        """`config` with the recommended spacing. StateError: nothing is recommended."""
+        if not self.runs:
+            raise StateError(f"nothing is recommended: {self.reason}")
+        return config.replace(spacing=self.spacing)
 
     def __str__(self) -> str:
         what = " and ".join(self.of)

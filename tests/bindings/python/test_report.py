@@ -105,8 +105,11 @@ def test_what_is_recommended_reaches_the_accuracy(made):
     fine = made.recommend(0.01)
     assert fine.spacing < chosen.spacing and fine.cpu_seconds > chosen.cpu_seconds
     assert f"spacing of {chosen.spacing:.4g} m" in str(made)
+    assert chosen.config(granperi.Config(horizon=3)) == granperi.Config(horizon=3, spacing=chosen.spacing)
     hopeless = made.recommend(1e-6)
     assert hopeless.runs == 0 and "not even a spacing of" in hopeless.reason
+    with pytest.raises(granperi.StateError, match="nothing is recommended: not even a spacing"):
+        hopeless.config(granperi.Config())
 
 
 def test_the_forecast_of_the_cost_is_that_of_its_law(made):
