@@ -4,12 +4,13 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import types
 import warnings
 from typing import Any, Sequence
 
 import granperi
 
-from . import _compare, _report_command
+from . import _cli_report, _compare
 from ._errors import Error, near_match
 from ._result import Result
 from ._scene import Scene
@@ -185,9 +186,7 @@ def _parser() -> argparse.ArgumentParser:
     info = command("info", _info, "Version and features; the plan of a scene file; what is in a result file.")
     info.add_argument("file", nargs="?", help="scene file or result file")
 
-    report = command("report", _report_command.run, _report_command.HELP, epilog=_report_command.EPILOG,
-                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    _report_command.add_arguments(report)
+    _cli_report.add(types.SimpleNamespace(add=command))
     return parser
 
 

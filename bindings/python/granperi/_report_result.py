@@ -248,8 +248,9 @@ class Report:
 
         return body(self)
 
-    def write(self, path: "str | os.PathLike[str]") -> None:
-        """Writes the report to a name that ends in .html or .json; beside its place first, then renamed."""
+    def write(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
+        """Writes the report to a name that ends in .html or .json; beside its place first, then renamed. FileError: it is there,
+        and overwrite is false."""
         path = os.fspath(path)
         if path.endswith(".html"):
             text = self.html()
@@ -257,6 +258,8 @@ class Report:
             text = json.dumps(self.data(), indent=1, allow_nan=False) + "\n"
         else:
             raise ArgumentError(f"path = {path!r:.200}: expected a name that ends in .html or .json")
+        if not overwrite and os.path.exists(path):
+            raise FileError(f"{path}: exists: expected another name, or overwrite=True")
         part = f"{path}.part-{os.getpid()}"
         try:
             with open(part, "w", encoding="utf-8") as file:

@@ -64,9 +64,9 @@ class _Level:
 
 # aims: written by bench/performance/aims.py
 _LEVELS = {
-    "draft": _Level(10, 4.0, 1, 0.10, 0.081, 0.071, 0.10),
-    "standard": _Level(15, 4.0, 1, 0.05, 0.042, 0.029, 0.32),
-    "fine": _Level(25, 3.0, 1, 0.02, 0.016, 0.014, 0.93),
+    "draft": _Level(10, 4.0, 1, 0.10, 0.064, 0.077, 0.08),
+    "standard": _Level(15, 4.0, 1, 0.05, 0.040, 0.033, 0.23),
+    "fine": _Level(25, 3.0, 1, 0.02, 0.016, 0.016, 1.02),
 }
 # /aims
 

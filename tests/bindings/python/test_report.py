@@ -162,6 +162,9 @@ def test_the_page_needs_nothing_beside_it(made, tmp_path):
     assert made._repr_html_() in page
     with pytest.raises(granperi.ArgumentError, match=r"expected a name that ends in .html or .json"):
         made.write(tmp_path / "report.pdf")
+    with pytest.raises(granperi.FileError, match="report.html: exists: expected another name, or overwrite=True"):
+        made.write(tmp_path / "report.html")
+    made.write(tmp_path / "report.html", overwrite=True)
     with pytest.raises(granperi.FileError, match="cannot be written"):
         made.write(tmp_path / "nowhere" / "report.html")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["report.html"]
@@ -229,5 +232,7 @@ def test_from_the_command_line(python, tmp_path):
     assert "relative error of one run" in result.stdout and "within 20 %" in result.stdout
     assert json.loads((tmp_path / "collapse_report.json").read_text())["seconds"] < 600
     assert (tmp_path / "collapse_report.html").stat().st_size > 10000
+    again = python("-m", "granperi", "report", "collapse.toml", cwd=tmp_path)  # before anything is run
+    assert again.returncode == 1 and "collapse_report.html: exists: name another one with --output, or replace it" in again.stderr
     wrong = python("-m", "granperi", "report", "collapse.toml", "--output", "report.pdf", cwd=tmp_path)
     assert wrong.returncode == 2 and "expected a name that ends in .html or .json" in wrong.stderr

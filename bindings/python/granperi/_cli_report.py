@@ -4,8 +4,9 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from typing import Any
 
-from ._errors import ArgumentError
+from ._errors import ArgumentError, FileError
 from ._report import report
 
 HELP = "Runs a scene at several spacings and tells what each errs by, what it costs, and which is enough."
@@ -18,7 +19,9 @@ hold in 9 of 10 cases. NAME.html is one page that needs nothing beside it, NAME.
 """
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add(commands: Any) -> None:
+    """commands.add(name, function, help, ...) makes the parser of a command."""
+    parser = commands.add("report", _report, HELP, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", help="scene file (TOML)")
     parser.add_argument("--budget", type=float, default=60.0, help="seconds that it may take [60]")
     parser.add_argument("--accuracy", type=float, default=0.05, help="relative error that is asked for [0.05]")
@@ -30,22 +33,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seeds", type=int, default=4, help="runs of each spacing [4]")
     parser.add_argument("--workers", type=int, default=1, help="runs beside each other [1]")
     parser.add_argument("--output", nargs="+", metavar="FILE", help=".html or .json [SCENE_report.html SCENE_report.json]")
+    parser.add_argument("--overwrite", action="store_true", help="replaces reports that are there")
     parser.add_argument("--progress", action=argparse.BooleanOptionalAction, default=None,
                         help="a progress bar [where stderr is a terminal]")
 
 
-def run(options: argparse.Namespace) -> None:
+def _report(options: argparse.Namespace) -> None:
     name = os.path.splitext(os.path.basename(options.scene))[0]
     outputs = options.output or [f"{name}_report.html", f"{name}_report.json"]
     for path in outputs:  # before the work, not after it
         if not path.endswith((".html", ".json")):
             raise ArgumentError(f"--output {path}: expected a name that ends in .html or .json")
+        if not options.overwrite and os.path.exists(path):
+            raise FileError(f"{path}: exists: name another one with --output, or replace it with --overwrite")
     found = report(options.scene, options.budget, options.accuracy, end=options.end, spacings=options.spacings,
                    seeds=options.seeds, of=options.of, workers=options.workers,
                    progress=_shown() if options.progress is None else options.progress)
     print(found)
     for path in outputs:
-        found.write(path)
+        found.write(path, options.overwrite)
         print(path)
 
 
