@@ -69,7 +69,7 @@ def others(path: Path, results: Collection, scenes: tuple[str, ...] = ("a5", "on
     shown = [(s, ref, points) for s, ref, points in found if ref and len(points) > 1]
     if not shown:
         return False
-    figure, axes = plt.subplots(len(shown), 2, figsize=(14, 6 * len(shown)), layout="constrained", squeeze=False)
+    figure, axes = plt.subplots(len(shown), 2, figsize=(11, 5.2 * len(shown)), layout="constrained", squeeze=False)
     for row, (scene, ref, points) in zip(axes, shown):
         for ax, quantity in zip(row, measures.AIMED_AT):
             _work_precision(ax, points, ref, quantity)
@@ -79,7 +79,7 @@ def others(path: Path, results: Collection, scenes: tuple[str, ...] = ("a5", "on
 
 
 def exact(path: Path, results: Collection) -> bool:
-    figure, axes = plt.subplots(2, 4, figsize=(19, 9.5), layout="constrained")
+    figure, axes = plt.subplots(4, 2, figsize=(10.5, 16), layout="constrained")  # as wide as a page: readable at half size
     drawn = False
     for ax, case in zip(axes.flat, runs.CASES.values()):
         places: list[tuple[float, float]] = []
@@ -105,13 +105,12 @@ def exact(path: Path, results: Collection) -> bool:
         drawn = drawn or bool(places)
         _log_log(ax)
         ax.set_title(case.label, fontsize=14)
-        ax.set_ylabel(f"error (%), {case.unit}", fontsize=12)
-    for ax in axes[1]:
+        ax.set_ylabel(f"error (%), {case.unit}", fontsize=13)
         ax.set_xlabel("CPU s")
     last = axes.flat[len(runs.CASES) :]
     for ax in last:
         ax.set_visible(False)
-    legend_above(figure, axes.flat[1], 4)
+    legend_above(figure, axes.flat[1], 3)
     return drawn and finish(figure, path)
 
 
