@@ -21,7 +21,7 @@ from fortran_reference import write_fortran_reference  # noqa: E402
 from python_reference import write_python_reference  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-REPORTS = ["validation", "stability", "performance", "settings", "hot-path", "trust", "abi"]
+REPORTS = ["validation", "stability", "performance", "settings", "report", "hot-path", "trust", "abi"]
 EXAMPLES = {"c": (".c", ".h"), "fortran": (".f90",), "python": (".py",)}
 NEEDED = {"sphinx": "python3-sphinx", "myst_parser": "python3-myst-parser", "furo": "furo"}
 LINK = re.compile(r"(!?)\[([^]]*)\]\(([^)#]*)(#[^)]*)?\)")

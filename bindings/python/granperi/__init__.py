@@ -6,12 +6,13 @@ from ._compare import Difference, compare
 from ._enums import Density, Field, Fluidity, InitialPressure, Preset, StepLimit, Stress, Wall
 from ._errors import (ArgumentError, ArgumentTypeError, DivergedError, Error, FileError, GranperiWarning, InternalError,
                       OutOfMemoryError, StateError, UnsupportedError, VersionError)
-from ._estimate import Estimate, estimate
 from ._library import lib as _lib
 from ._library import text_of as _text_of
 from ._objects import Column, Config, Material
 from ._output import Output
 from ._plate import Plate
+from ._report import report
+from ._report_result import Recommendation, Report, Row
 from ._result import Result, Snapshot
 from ._scene import Run, Scene, SceneError
 from ._settings import Settings, settings
@@ -33,9 +34,9 @@ load = Simulation.load
 
 __all__ = [
     "ArgumentError", "ArgumentTypeError", "Clock", "Column", "Config", "Density", "Difference", "DivergedError", "Error",
-    "Estimate", "Field", "FieldView", "FileError", "Fluidity", "GranperiWarning", "History", "InitialPressure", "InternalError",
-    "Load", "Material", "OutOfMemoryError", "Output", "Particles", "PlanEntry", "Plate", "Preset", "Result", "Run",
+    "Field", "FieldView", "FileError", "Fluidity", "GranperiWarning", "History", "InitialPressure", "InternalError",
+    "Load", "Material", "OutOfMemoryError", "Output", "Particles", "PlanEntry", "Plate", "Preset", "Recommendation", "Report", "Result", "Row", "Run",
     "Scene", "SceneError", "Settings", "Simulation", "Snapshot", "State", "StateError", "StepLimit", "Stress",
-    "UnsupportedError", "VersionError", "View", "Wall", "compare", "estimate", "has_feature", "load",
-    "settings",
+    "UnsupportedError", "VersionError", "View", "Wall", "compare", "has_feature", "load",
+    "report", "settings",
 ]

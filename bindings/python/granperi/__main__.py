@@ -4,12 +4,13 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import types
 import warnings
 from typing import Any, Sequence
 
 import granperi
 
-from . import _compare
+from . import _cli_report, _compare
 from ._errors import Error, near_match
 from ._result import Result
 from ._scene import Scene
@@ -134,9 +135,6 @@ def _info(options: argparse.Namespace) -> None:
             print(f"fields: {', '.join(result.fields)}")
         return
     scene = Scene.read(options.file)
-    if options.estimate:
-        print(granperi.estimate(scene))
-        return
     with scene.build() as sim:
         print(f"{scene!r}: {sim.n_particles} particles")
         print(f"{'':<9}{'name':<28}{'bytes':>12}  why")
@@ -187,8 +185,8 @@ def _parser() -> argparse.ArgumentParser:
 
     info = command("info", _info, "Version and features; the plan of a scene file; what is in a result file.")
     info.add_argument("file", nargs="?", help="scene file or result file")
-    info.add_argument("--estimate", action="store_true",
-                      help="what the scene's spacing and half of it would cost and err, from two coarser runs")
+
+    _cli_report.add(types.SimpleNamespace(add=command))
     return parser
 
 

@@ -174,17 +174,26 @@ class Scene:
                 raise SceneError(f"{part.where()}: {error}") from None
         return sim
 
+    @property
+    def fixed_spacing(self) -> bool:
+        """Whether it has particles given one by one, whose spacing is theirs."""
+        return any(part.kind == "particles" for part in self._parts)
+
     def smallest_side(self) -> float:
         """The smallest width or height [m] of the scene's columns. ArgumentError: it has none, or particles given one by one,
         whose spacing is theirs."""
-        if any(part.kind == "particles" for part in self._parts):
+        if self.fixed_spacing:
             raise ArgumentError(f"{self.name}: has particles given one by one, whose spacing is theirs: expected a scene of "
                                 "columns, or a length in m")
-        sides = [self._side(part, key) for part in self._parts if part.kind == "column" for key in ("width", "height")]
+        sides = self.column_sides()
         if not sides:
             raise ArgumentError(f"{self.name}: has no column whose sides could be resolved: expected a scene of columns, or a "
                                 "length in m")
         return min(sides)
+
+    def column_sides(self) -> list[float]:
+        """Width and height [m] of each of the scene's columns."""
+        return [self._side(part, key) for part in self._parts if part.kind == "column" for key in ("width", "height")]
 
     @staticmethod
     def _side(column: _Part, key: str) -> float:

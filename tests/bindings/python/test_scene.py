@@ -128,27 +128,6 @@ def test_files_that_are_none(tmp_path):
         granperi.Scene.read(tmp_path / "bytes.toml")
 
 
-def test_estimate_extrapolates_from_two_coarser_runs():
-    scene = granperi.Scene.parse(TEXT.replace("spacing = 0.01", "spacing = 0.0025"))
-    report = granperi.estimate(scene, end=0.2)
-    assert [row.spacing for row in report] == [0.01, 0.005, 0.0025, 0.00125]
-    assert [row.measured for row in report] == [True, True, False, False]
-    for name in ("peak_height", "x_left", "x_right"):
-        errors = [row.errors[name] for row in report]
-        assert errors == pytest.approx([errors[0] / 2**k for k in range(4)])
-        # Richardson: values go on by halves of the last difference
-        values = [row.values[name] for row in report]
-        assert values[2] - values[1] == pytest.approx((values[1] - values[0]) / 2)
-    with scene.build(0.005) as sim:
-        sim.run(0.2)
-        assert report[1].values["peak_height"] == sim.state.peak_height
-    assert report.cost_order == pytest.approx(3, abs=0.5)
-    assert report[3].cpu_seconds == pytest.approx(report[2].cpu_seconds * 2**report.cost_order)
-    assert "estimated" in str(report)
-    with pytest.raises(granperi.ArgumentError, match="order = 9"):
-        granperi.estimate(scene, order=9)
-
-
 # ------------------------------------------------------------------------------------------ the command line
 
 
