@@ -74,8 +74,8 @@ constexpr double deficient_share = 0.2;
 //
 // Least stable step of 120 random clumps of 3 to 30 grains in free space, .85 dl apart at least (2 over the highest frequency of their
 // discrete operators, dl / wave speed), by deficient_share and few_trace, and the scheme's own:
-//   horizon 4: .1, .5 1.04   .2, .5 1.30   .15, .7 1.31   .2, .7 1.45   .2, .9 1.70   own 1.27
-//   horizon 3:        .72           .87            .91           .93           1.06       .96
+//   horizon 4: .1, .5 1.04   .2, .5 1.30   .15, .7 1.31   .2, .7 1.45   .2, .9 1.70   own 1.06
+//   horizon 3:        .72           .87            .91           .93           1.06       .80
 // Deposits of the collapse do not know the difference: peak .4134 and .4139, R90 1.080 and 1.078 (+- .002) with .1, .5 and .2, .7.
 constexpr double few_trace = 0.7;
 
