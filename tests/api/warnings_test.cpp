@@ -133,7 +133,7 @@ TEST(Warnings, OfTheEnergyError) {
     {
         Sim sim(config);
         add_collapse(sim, 16, 12);
-        config.time_step = 4 * sim.state().dt_limit;
+        config.time_step = 2 * sim.state().dt_limit;
     }
     config.allow_unstable_step = 1;
     expect_once(config, [](Sim &sim) { add_collapse(sim, 16, 12); }, 0.25, {"energy ledger is wrong by", "time_step"});
