@@ -63,20 +63,18 @@ GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t 
     sum.myy += myy;
 }
 
-// Below this share of the full-lattice value an eigenvalue of K no longer describes a neighbourhood: a free corner has .41 to .14
-// (horizons of 1.8 to 8 dl; .21 with 4), a straight row has 0 across itself.
-constexpr double deficient_share = 0.2;
+// Below this share of the full-lattice value an eigenvalue of K no longer describes a neighbourhood: a free corner has
+// .14 to .4 (horizons of 8 to 1.8 dl), a straight row has 0 across itself.
+constexpr double deficient_share = 0.1;
 
-// Nor does the whole of K below this trace, about that of a quarter plane (.91 to .59; .69 with 4), over the full-lattice value of an
-// eigenvalue: few particles. Its inverse would make them as stiff as their distance is short, too stiff for the time step: two to six
-// grains that met in free space left with up to 13 times their energy. With the inverse reduced by the square of what is missing
-// they lose some, collisions included; where a plate or a deposit is near, none of this acts.
+// Nor does the whole of K below this trace, about that of a quarter plane (.91 to .59 with horizons of 1.8 to 8 dl; .69 with 4), over
+// the full-lattice value of an eigenvalue: few particles. Its inverse would make them as stiff as their distance is short, too stiff
+// for the time step: two to six grains that met in free space left with up to 13 times their energy. With the inverse reduced by the
+// square of what is missing they lose some, collisions included; where a plate or a deposit is near, none of this acts.
 //
-// Least stable step of 120 random clumps of 3 to 30 grains in free space, .85 dl apart at least (2 over the highest frequency of their
-// discrete operators, dl / wave speed), by deficient_share and few_trace, and the scheme's own:
-//   horizon 4: .1, .5 1.04   .2, .5 1.30   .15, .7 1.31   .2, .7 1.45   .2, .9 1.70   own 1.06
-//   horizon 3:        .72           .87            .91           .93           1.06       .80
-// Deposits of the collapse do not know the difference: peak .4134 and .4139, R90 1.080 and 1.078 (+- .002) with .1, .5 and .2, .7.
+// Least stable step of 720 random clumps of 3 to 30 grains in free space, .85 dl apart at least (2 over the highest frequency of
+// their discrete operators, in dl / wave speed), by this trace, and the scheme's own step:
+//   horizon 2.5: .5 .64   .7 .72   own .66      3: .72   .90   .80      4: 1.04   1.25   1.06      6: 1.92   2.38   1.58
 constexpr double few_trace = 0.7;
 
 // K^-1, with the inverse of an eigenvalue l below the floor f = 0.1 k0 replaced by l / f^2: continuous, and 0 for no, a

@@ -322,7 +322,7 @@ module granperi_raw
     integer(c_int32_t), parameter :: GP_DT_NONE = 0 !! no step taken yet
     integer(c_int32_t), parameter :: GP_DT_SOUND = 1
         !! elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the lighter is pushed
-        !! by the stiffness of the heavier (horizon 4: from a ratio of about 10 on)
+        !! by the stiffness of the heavier (from a ratio of about 8 on)
     integer(c_int32_t), parameter :: GP_DT_FLOW = 2
         !! relative motion: of the scheme's own step .06 spacings, but not below .38 of what is stable; of any, a
         !! quarter spacing per step

@@ -467,7 +467,7 @@ GP_API gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t
 enum {
     GP_DT_NONE = 0,      /* no step taken yet */
     GP_DT_SOUND = 1,     /* elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the
-                            lighter is pushed by the stiffness of the heavier (horizon 4: from a ratio of about 10 on) */
+                            lighter is pushed by the stiffness of the heavier (from a ratio of about 8 on) */
     GP_DT_FLOW = 2,      /* relative motion: of the scheme's own step .06 spacings, but not below .38 of what is stable; of
                             any, a quarter spacing per step */
     GP_DT_PLATE = 3,     /* the inertia of a loaded plate */

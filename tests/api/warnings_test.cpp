@@ -96,7 +96,8 @@ TEST(Warnings, OfAFastPlate) {
                 1e-2, {"plate 1 moves at 5 m/s", "0.357", "gp_config.sound_speed to about 50"});
 }
 
-// A lid comes down on a floor, and a particle that has nowhere to go between them.
+// A lid comes down on a floor, and a particle that has nowhere to go between them. It is looked for every 64 steps, in which the lid
+// moves by half a spacing.
 TEST(Warnings, OfAPlateThatPassesParticles) {
     expect_once(make_config(),
                 [](Sim &sim) {
@@ -106,7 +107,7 @@ TEST(Warnings, OfAPlateThatPassesParticles) {
                     sim.add(lid);
                     sim.add(make_column(1, 1));
                 },
-                0.24, {"plate 0 is passed by particle 0", "plates 0 and 1 close on it"});
+                0.4, {"plate 0 is passed by particle 0", "plates 0 and 1 close on it"});
     // A plate that is driven down past a grain that stands on another one.
     expect_once(make_config(),
                 [](Sim &sim) {
