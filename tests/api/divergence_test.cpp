@@ -100,7 +100,7 @@ TEST(TimeStep, SaysWhatSetIt) {
         ASSERT_EQ(gp_step(sim, 1), GP_OK);
         const gp_state s = sim.state();
         EXPECT_EQ(s.dt_reason, GP_DT_SOUND);
-        EXPECT_NEAR(s.dt, 1.056 * crossing(s), 1e-3 * s.dt); // von Neumann's analysis, bench/stability/theory.py
+        EXPECT_NEAR(s.dt, 0.950 * crossing(s), 1e-3 * s.dt); // von Neumann's analysis, bench/stability/theory.py
         EXPECT_NEAR(s.dt_limit, 1.928 * crossing(s), 1e-3 * s.dt_limit);
         ASSERT_EQ(gp_run(sim, s.time + 0.4 * s.dt), GP_OK);
         EXPECT_EQ(sim.state().dt_reason, GP_DT_END);

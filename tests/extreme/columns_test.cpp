@@ -174,7 +174,7 @@ TEST(AtRest, NothingCreepsForSixSeconds) {
 
 // Of forty particles two at the tips may tremble: each is 2.5 % of the mass. (With 1 % of the mass as the limit 2 of these 24
 // deposits were not at rest, at a kinetic energy of 1e-8 of the scene's.) A third one does at times: of 192 deposits, looked at twenty
-// times each, 9 did not read rest at 16 looks, .4 % (with steps of .8 dl / wave speed 12 at 55, 1.4 %).
+// times each, 5 did not read rest at 19 looks, .5 % (with steps of .8 dl / wave speed 12 at 55, 1.4 %).
 TEST(AtRest, CoarseDepositsAreSeenToRestAndTheirFallIsNot) {
     int looks = 0, seen = 0;
     for (int k = 0; k < 24; ++k) {

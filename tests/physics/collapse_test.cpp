@@ -30,7 +30,7 @@ TEST(Collapse, ComesToRestAndStays) {
     EXPECT_LT(rest_since, 1.0);
     EXPECT_LT(state.kinetic, 1e-6 * Collapse::energy);
     // Of the finest spacings 90 % of the mass lie within a run-out of 1.085; jittered runs scatter by .9 %. The tips of one run are a
-    // few grains (1.70 to 1.90 in twelve, with a time step of .8 or 1.06 dl / wave speed); the codes above have 1.9 to 2.4.
+    // few grains (1.70 to 1.90 in twelve, with time steps of .8 and 1.06 dl / wave speed); the codes above have 1.9 to 2.4.
     const double half = Collapse::length / 2;
     EXPECT_NEAR(((state.x_q95 - state.x_q05) / 2 - half) / half, 1.085, 0.04 * 1.085);
     EXPECT_LT((state.x_right - half) / half, 2.4);

@@ -45,7 +45,7 @@ struct InclinedColumn {
 
 // With a front whose single grains had the friction mu_s the mass ran on, the farther the finer the spacing: 98 % of it within
 // 7.9 lengths at 5 mm. Here, at 7 mm, as at 5 and 2.5 mm: 5.3 to 5.4. Single runs scatter by .3 in the mark of 98 %, and the mass before
-// the front in grains apart is .4 to 5.7 %, 2.5 % in the mean of six (3.7 % with steps of .8 dl / wave speed).
+// the front in grains apart is .4 to 5.7 %, 2 to 4 % in means.
 TEST(InclinedColumn, RunsOutAsFarAsAtFinerSpacings) {
     Sample most, bulk, detached;
     for (int run = 0; run < 4; ++run) {
