@@ -97,27 +97,27 @@ TEST(Warnings, OfAFastPlate) {
 }
 
 // A lid comes down on a floor, and a particle that has nowhere to go between them. It is looked for every 64 steps, in which the lid
-// moves by a quarter of a spacing.
+// moves by a tenth of a spacing.
 TEST(Warnings, OfAPlateThatPassesParticles) {
     expect_once(make_config(),
                 [](Sim &sim) {
                     gp_plate lid = make_plate(-0.5, spacing, 0.5, spacing);
-                    lid.vy = -0.02;
+                    lid.vy = -0.01;
                     sim.add(make_floor());
                     sim.add(lid);
                     sim.add(make_column(1, 1));
                 },
-                0.48, {"plate 0 is passed by particle 0", "plates 0 and 1 close on it"});
+                0.96, {"plate 0 is passed by particle 0", "plates 0 and 1 close on it"});
     // A plate that is driven down past a grain that stands on another one.
     expect_once(make_config(),
                 [](Sim &sim) {
                     gp_plate lid = make_plate(-0.5, 3 * spacing, 0.5, 3 * spacing);
-                    lid.vy = -0.02;
+                    lid.vy = -0.01;
                     sim.add(lid);
                     sim.add(make_floor());
                     sim.add(make_column(1, 1));
                 },
-                1.6, {"particle 0", "plates", "close on it", "a spacing apart"});
+                3.2, {"particle 0", "plates", "close on it", "a spacing apart"});
 }
 
 TEST(Warnings, OfThePenaltysShare) {
