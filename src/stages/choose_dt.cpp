@@ -9,7 +9,7 @@ namespace gp::stages {
 namespace {
 
 // Relative motion in one of the scheme's own steps, in dl, down to the step of quick motion. The collapse with a = 1.25, L/dl = 32,
-// eight runs: its steps, peak and R90 to those of the finest, +- .3 %:
+// eight runs with an own share of .6 (scene_constants.cpp): its steps, peak and R90 to those of the finest, +- .3 %:
 //   none  3600  -3.3 %  +.7 %      .07  3880  -2.5  -.3      always the step of quick motion  5700  -2.1  -.7
 //   .1    3690  -3.1    +.3        .05  3980  -2.1  -.8
 // and the energy error of a column with a = 50 falls from 4 to 3 %, to that of the last.
