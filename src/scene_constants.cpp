@@ -56,7 +56,8 @@ constexpr double light_plate = 0.5;
 constexpr double surface_share = 0.6;
 
 // The scheme's own step over that limit, where little moves: so long that clumps of few grains are stable with it at any horizon
-// (operators.hpp). With .5 six grains that meet in free space, 3 beside 3, leave with 1.8 times their energy. Collapses with a = 1.25,
+// (operators.hpp). With .5 six grains that meet in free space, 3 beside 3, leave with 1.8 times their energy. (A few_trace of
+// .6 would bear .5, but leave neither a single row nor a corner its exact gradient.) Collapses with a = 1.25,
 // horizon 4 dl, by this share; peak and R90 to those of the finest, L/dl = 32, twelve runs, +- .3 and .2 %; CPU time; of 192 deposits with
 // L/dl = 8, looked at every .05 s from 1 to 2 s, those that once did not read rest, and the looks:
 //   .38 -2.5 %  -.7 %  1    12, 55        .45 -2.8  -.6  .88   5, 19        .5 -2.3  -.4  .82   9, 16
