@@ -137,7 +137,11 @@ typedef struct gp_config {
                                     column (not with GP_DENSITY_NUMBER, nor with a time_step). The log says so and what it
                                     costs. Else at least 1e-9 [0] */
     double cfl;                  /* time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0;
-                                    0: the scheme's own, 0.8 or of the schemes of [1] 0.2; else 1e-6 .. 2 [0] */
+                                    0: the scheme's own, 0.45 of what is stable with the horizon in use (horizon 2.5: 0.59, 3: 0.71,
+                                    4: 0.95, 6: 1.42), down to 0.38 of it where the material moves by more than 0.06 dl in a
+                                    step and where a blow is foreseen; of the schemes of [1] 0.2. Else 1e-6 .. 8; beyond
+                                    gp_state.dt_limit (at least 1.18, 1.44, 1.93, 2.88 by the default coefficients, 1.0 in the schemes
+                                    of [1]) it is refused at the first step, but see allow_unstable_step [0] */
     double time_step;            /* s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY.
                                     Beyond gp_state.dt_limit: refused at the first step, but see allow_unstable_step [0] */
     double interaction_radius;   /* dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4] */
@@ -476,8 +480,9 @@ GP_API gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t
 enum {
     GP_DT_NONE = 0,      /* no step taken yet */
     GP_DT_SOUND = 1,     /* elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the
-                            lighter is pushed by the stiffness of the heavier (horizon 4: from a ratio of about 10 on) */
-    GP_DT_FLOW = 2,      /* relative motion: a quarter spacing per step */
+                            lighter is pushed by the stiffness of the heavier (from a ratio of 9 to 10 on) */
+    GP_DT_FLOW = 2,      /* relative motion: of the scheme's own step .06 spacings, but not below .38 of what is stable; of
+                            any, a quarter spacing per step */
     GP_DT_PLATE = 3,     /* the inertia of a loaded plate */
     GP_DT_VISCOSITY = 4, /* bulk_viscosity, zero_energy_penalty or density_diffusion */
     GP_DT_DEMANDED = 5,  /* gp_config.time_step */
