@@ -43,10 +43,11 @@ struct Layer {
         p.vx = vx;
         return sim.add(p);
     }
-    int32_t lid(double y, double load, double vx) {
+    int32_t lid(double y, double load, double vx, int32_t fluidity = GP_FLUIDITY_FREE) {
         gp_plate p = plate(0, y, width, y);
         p.normal_pressure = load;
         p.vx = vx;
+        p.fluidity = fluidity;
         return sim.add(p);
     }
     double largest_fluidity() {
@@ -91,17 +92,18 @@ TEST(FluidShearBox, HasTheFrictionOfTheLawAtTheImposedRate) {
 // coarser one.
 namespace {
 
-void expect_profile(double spacings_in_grain, double stress_error) {
+void expect_profile(double spacings_in_grain, int32_t of_lid, double velocity_error, double stress_error) {
     const gp_material beads = fluid(0.48, 0.001);
     const double d = beads.grain_diameter, h = 8 * d, load = 102.3, speed = 0.003;
     const auto pressure = [&](double z) { return load + density * gravity * z; };
-    const double stress = stress_of_lid(law_of(beads), h, pressure, speed);
+    const bool zero = of_lid == GP_FLUIDITY_ZERO;
+    const double stress = stress_of_lid(law_of(beads), h, pressure, speed, zero);
     const FluidityProfile exact(
-        law_of(beads), h, [&](double) { return stress; }, pressure, false, false);
+        law_of(beads), h, [&](double) { return stress; }, pressure, zero, false);
     const double spacing = d / spacings_in_grain;
     Layer cell(spacing, beads, h, 0, -gravity, 5);
     cell.floor(GP_FLUIDITY_FREE);
-    const int32_t lid = cell.lid(h, load, speed);
+    const int32_t lid = cell.lid(h, load, speed, of_lid);
     cell.sim.run(0.6);
     const gp_load before = cell.sim.load(lid);
     const int samples = 20, rows = static_cast<int>(std::lround(h / spacing));
@@ -122,7 +124,8 @@ void expect_profile(double spacings_in_grain, double stress_error) {
         u[k] /= counts[k];
     }
     for (const double grains : {1.0, 2.0, 3.0, 5.0})
-        EXPECT_NEAR(profile_at(depth, u, grains * d), exact.velocity(grains * d) / speed, 0.02) << grains << " grains";
+        EXPECT_NEAR(profile_at(depth, u, grains * d), exact.velocity(grains * d) / speed, velocity_error)
+            << grains << " grains";
     const gp_load after = cell.sim.load(lid);
     EXPECT_NEAR(-(after.impulse_x - before.impulse_x) / (0.4 * cell.width), stress, stress_error * stress);
 }
@@ -130,11 +133,21 @@ void expect_profile(double spacings_in_grain, double stress_error) {
 } // namespace
 
 TEST(FluidCouetteCell, HasTheProfileOfTheOneDimensionalSolution) {
-    expect_profile(2, 0.03);
+    expect_profile(2, GP_FLUIDITY_FREE, 0.02, 0.03);
 }
 
 TEST(FluidCouetteCell, HasTheSameProfileAtHalfTheSpacing) {
-    expect_profile(4, 0.01);
+    expect_profile(4, GP_FLUIDITY_FREE, 0.02, 0.01);
+}
+
+// Grains glued to the lid hold their neighbours: the rate at the lid is 0, and the profile has its steepest part 1.5 grains below.
+// The velocity errs by the spacing: .042, .022, .011 at d/2, d/4, d/8 two grains down, the stress by .8, .8, .6 %.
+TEST(FluidCouetteCell, HasItsProfileBelowALidOfGluedGrains) {
+    expect_profile(2, GP_FLUIDITY_ZERO, 0.05, 0.015);
+}
+
+TEST(FluidCouetteCell, ErrsByHalfAsMuchThereAtHalfTheSpacing) {
+    expect_profile(4, GP_FLUIDITY_ZERO, 0.025, 0.015);
 }
 
 // At the speed of the experiment, where a layer in one dimension comes to steady flow within a second. With the first rows tied
