@@ -6,11 +6,11 @@ import sys
 import warnings
 from typing import Sequence
 
-from . import _cli_animate, _cli_compare, _cli_info, _cli_plot, _cli_run
-from ._cli import Commands
+from . import _cli_animate, _cli_compare, _cli_history, _cli_info, _cli_plot, _cli_run, _cli_sweep
+from ._cli import Commands, Terminated
 from ._errors import ArgumentError, Error
 
-COMMANDS = (_cli_run, _cli_plot, _cli_animate, _cli_compare, _cli_info)
+COMMANDS = (_cli_run, _cli_sweep, _cli_plot, _cli_animate, _cli_history, _cli_compare, _cli_info)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -22,15 +22,15 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Returns the exit status: 0, 1 for an error, 2 for wrong arguments, 130 after Ctrl-C."""
+    """Returns the exit status: 0, 1 for an error, 2 for wrong arguments, 130 after Ctrl-C, 143 after SIGTERM."""
     options = _parser().parse_args(arguments)
     try:
         with warnings.catch_warnings():
             warnings.showwarning = lambda message, *more, **others: print(f"granperi: {message}", file=sys.stderr)
             options.function(options)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
         print("granperi: interrupted", file=sys.stderr)
-        return 130
+        return 143 if isinstance(interrupt, Terminated) else 130
     except (Error, ImportError, OSError) as error:
         print(f"granperi: {error}", file=sys.stderr)
         return 2 if isinstance(error, ArgumentError) else 1

@@ -2,7 +2,32 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any, Callable
+import contextlib
+import signal
+import sys
+from types import FrameType
+from typing import Any, Callable, Iterator
+
+
+class Terminated(KeyboardInterrupt):
+    """SIGTERM: a batch system wants its processor back."""
+
+
+@contextlib.contextmanager
+def saved_when_terminated(hint: str) -> Iterator[None]:
+    """SIGTERM interrupts what is inside as Ctrl-C does; the hint says how it goes on after that."""
+    def terminate(number: int, frame: "FrameType | None") -> None:
+        raise Terminated
+
+    before = signal.signal(signal.SIGTERM, terminate)
+    try:
+        yield
+    except KeyboardInterrupt:
+        if hint:
+            print(f"granperi: {hint}", file=sys.stderr)
+        raise
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class Commands:
@@ -16,3 +41,11 @@ class Commands:
         one = self._all.add_parser(name, help=help, description=help, **more)
         one.set_defaults(function=function)
         return one
+
+
+def whole_above_0(text: str) -> int:
+    """The type of an argument that counts something."""
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text}: expected a whole number >= 1")
+    return number

@@ -5,12 +5,15 @@ import argparse
 
 import granperi
 
-from ._cli import Commands
+from ._cli import Commands, whole_above_0
+from ._errors import ArgumentError
 from ._result import Result
 from ._scene import Scene
 
 
 def _info(options: argparse.Namespace) -> None:
+    if options.plan and (options.file is None or options.file.endswith((".h5", ".hdf5"))):
+        raise ArgumentError("--plan: expected a scene file, whose plan it is")
     if options.file is None:
         print(f"granperi {granperi.__version__}")
         for feature in ("hdf5", "openmp"):
@@ -30,14 +33,16 @@ def _info(options: argparse.Namespace) -> None:
         return
     with scene.build() as sim:
         print(f"{scene!r}: {sim.n_particles} particles")
-        print(f"{'':<9}{'name':<28}{'bytes':>12}  why")
-        for entry in sim.plan():
-            what = ("stage" if entry.kind == 0 else "field") if entry.active else "-"
-            print(f"{what:<9}{entry.name:<28}{entry.bytes or '':>12}  {entry.reason}")
+        if options.plan:
+            sim.step(options.plan)
+            print(f"after {options.plan} steps, to {sim.time:.4g} s:")
+        print(sim.plan())
 
 
 def add(commands: Commands) -> None:
     info = commands.add("info", _info, "Version and features; the plan of a scene file; what is in a result file.")
     info.add_argument("file", nargs="?", help="scene file or result file")
+    info.add_argument("--plan", type=whole_above_0, nargs="?", const=100, metavar="STEPS",
+                      help="take so many steps of the scene first, so that the plan tells what each stage costs [100]")
     info.add_argument("--estimate", action="store_true",
                       help="what the scene's spacing and half of it would cost and err, from two coarser runs")
