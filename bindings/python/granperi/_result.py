@@ -202,7 +202,7 @@ class Result:
     def at(self, time: float) -> FileSnapshot:
         """The frame nearest to this time [s]; an error if there is none within the usual distance of two frames."""
         if not len(self):
-            raise ArgumentError(f"{self.path} has no frames")
+            return self[0]  # which says why there is none
         frame = int(np.argmin(np.abs(self.times - time)))
         usual = np.median(np.diff(self.times)) if len(self) > 1 else 0.0
         if not abs(self.times[frame] - time) <= usual + 1e-9:
@@ -322,8 +322,9 @@ def history(source: Any) -> History:
     """The states of a history, of a result or its path, or those that a simulation has kept in frames() or record()."""
     if isinstance(source, (str, os.PathLike)):
         with Result(source) as result:
-            return result.history
+            return history(result)
     if isinstance(source, Result):
+        source[0]  # the error of a file without frames
         return source.history
     kept = source.history if isinstance(source, Simulation) else source
     if not isinstance(kept, History):

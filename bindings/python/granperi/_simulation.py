@@ -13,7 +13,7 @@ from ._checkpoint import scene_in
 from ._derived import DERIVED, derived, names_with_derived
 from ._engine import Engine
 from ._enums import FIELD_MEANINGS, FIELD_NAMES, Field, field_names
-from ._errors import ArgumentError, ArgumentTypeError, StateError, check, doubles, number, path_bytes, pointer, whole
+from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, check, doubles, near_match, number, path_bytes, pointer, whole
 from ._library import ffi, lib
 from ._objects import Column, Config, Material, Parameters
 from ._output import Output
@@ -116,6 +116,11 @@ class Simulation:
 
     def __exit__(self, *error: object) -> None:
         self.close()
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise AttributeError(f"a Simulation has no '{name}': {near_match(name, [n for n in dir(self) if n[0] != '_'])}")
 
     def __repr__(self) -> str:
         if self.closed:
@@ -510,8 +515,20 @@ class Simulation:
 
 def _loaded(path: bytes):
     handle = ffi.new("gp_sim **")
-    check(lib.gp_load_file(path, handle))
+    try:
+        check(lib.gp_load_file(path, handle))
+    except FileError as error:
+        raise FileError(f"{error}{_what_instead(os.fsdecode(path))}") from None
     return handle[0]
+
+
+def _what_instead(path: str) -> str:
+    """What to do about a file that is no checkpoint."""
+    if not os.path.exists(path):
+        return "; sim.save() writes checkpoints, and Scene.record() does as NAME.gpc"
+    if os.path.isfile(path) and not os.path.getsize(path):
+        return "; it is empty: take an earlier checkpoint, or run anew"
+    return "; frames of a result file are read by granperi.Result" if path.endswith((".h5", ".hdf5")) else ""
 
 
 def _taken(kind: type[Parameters], given: Any, values: dict[str, Any]) -> Any:
