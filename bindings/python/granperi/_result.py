@@ -234,6 +234,21 @@ class Result:
         """The states at the frames. What differs from run to run, wall_seconds, is not in the file: NaN."""
         return History(self._state(frame) for frame in range(len(self)))
 
+    def universe(self) -> Any:
+        """An MDAnalysis.Universe of the particles and all frames, in m, m/s and s; resid is the column. It reads from this file
+        as long as that is open.
+
+            u = granperi.Result("collapse.h5").universe()
+            for at in u.trajectory:
+                print(at.time, u.select_atoms("prop y > 0.03").n_atoms)
+        """
+        try:
+            from ._mdanalysis import universe
+        except ImportError:
+            raise ImportError("Universe is of MDAnalysis (Debian: python3-mdanalysis)") from None
+        self._open()
+        return universe(self)
+
     def _plate_lines(self, frame: int) -> list[np.ndarray]:
         file = self._open()
         if "walls" not in file:  # of 0.1: no more than the scene is known

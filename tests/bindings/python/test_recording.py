@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import needs_hdf5
+from conftest import frames_in, needs_hdf5
 
 import granperi
 
@@ -247,9 +247,8 @@ def test_signals_save_and_end(tmp_path, number, status):
     (tmp_path / "s.toml").write_text(TEXT.replace("end = 0.2", "end = 100"))
     command = [sys.executable, "-m", "granperi", "run", "s.toml"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
-    while not (tmp_path / "run.part" / "run.xdmf").exists() and process.poll() is None:
+    while process.poll() is None and frames_in(tmp_path / "run.part" / "run.h5") < 2:
         time.sleep(0.01)
-    time.sleep(0.1)
     process.send_signal(number)
     told = process.communicate(timeout=60)[1]
     assert process.returncode == status and "with --resume goes on" in told and "Traceback" not in told
