@@ -38,6 +38,8 @@ class Probe:
     def __init__(self, sim: "Simulation", points: Any, fields: Any, plates: Any, every: float, radius: float | None):
         x, y = points_of("points", np.empty((0, 2)) if points is None else points)
         self.points = np.column_stack([x, y])
+        if not np.isfinite(self.points).all():
+            raise ArgumentError("points: expected finite numbers, x and y in m")
         self.fields = names_with_derived(fields) if len(self.points) else ()
         plates = [plates] if isinstance(plates, (int, np.integer)) else plates
         try:
@@ -82,10 +84,11 @@ class Probe:
             dx, dy = particles.x - x, particles.y - y
             if self._period:
                 dx -= self._period * np.round(dx / self._period)
-            near = np.flatnonzero(dx * dx + dy * dy < self.radius**2)
+            distance = np.hypot(dx, dy)
+            near = np.flatnonzero(distance < self.radius)
             if len(near):
-                weight = (1 - (dx[near] ** 2 + dy[near] ** 2) / self.radius**2) ** 2
-                found[:, k] = values[:, near] @ weight / weight.sum()
+                weight = (1 - (distance[near] / self.radius) ** 2) ** 2
+                found[:, k] = values[:, near] @ (weight / weight.sum())
         return found
 
     def _fill_means(self, before: np.ndarray, row: np.ndarray) -> None:

@@ -73,12 +73,13 @@ def _dark(path: "str | os.PathLike[str]") -> np.ndarray:
     except ImportError:
         raise ImportError("the image of a mask is read with Pillow (Debian: python3-pil); or give the mask as an array") from None
     try:
-        with Image.open(path) as image:
+        with open(path, "rb") as file, Image.open(file) as image:
             image = image.convert("RGBA")
             paper = Image.new("RGBA", image.size, "white")  # what is transparent is empty
             return np.asarray(Image.alpha_composite(paper, image).convert("L")) < 128
-    except (OSError, ValueError, SyntaxError) as error:
-        raise FileError(f"{os.fspath(path)}: cannot be read as an image: {error}") from None
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise FileError(f"{os.fspath(path)!r}: cannot be read as an image: {why}") from None
 
 
 def _some(x: np.ndarray, y: np.ndarray, what: str, spacing: float) -> tuple[np.ndarray, np.ndarray]:

@@ -160,7 +160,7 @@ MISTAKES = [
     (lambda: parsed("[run]\nuntil = \"reset\""), "s.toml, line 1, [run]: until = 'reset': expected 'end' or 'rest'"),
     (lambda: parsed("[[wall_line]]\nfile = \"no.csv\""), "s.toml, line 1, [[wall_line]] number 1: no.csv: cannot be read: No such file"),
     (lambda: parsed("[[wall_line]]\nclosed = true"), "expected either points = [[x, y], ...] or file = the name of a file"),
-    (lambda: parsed("[[mask]]\nfile = \"no.png\"\nx_min = 0\ny_min = 0\nwidth = 1"), "no.png: cannot be read as an image"),
+    (lambda: parsed("[[mask]]\nfile = \"no.png\"\nx_min = 0\ny_min = 0\nwidth = 1"), "'no.png': cannot be read as an image: No such file or directory"),
     # shapes, probes, sweeps
     (lambda: block().add_polygon([[0, 0], [1, 1]]), "points: expected three or more finite corners, got 2"),
     (lambda: block().add_mask([[0, 0.5]], 0, 0, 1), "mask: expected true and false (or 1 and 0) of the shape (rows, columns)"),
