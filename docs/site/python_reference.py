@@ -6,10 +6,10 @@ import text
 PAGES = {
     "simulation": ("Simulation", ["Simulation"]),
     "scene": ("What a scene is made of", ["Config", "Material", "Column", "Plate", "Scene", "Run"]),
-    "reading": ("What is read", ["State", "Clock", "History", "Load", "PlanEntry", "Particles", "View", "FieldView"]),
+    "reading": ("What is read", ["State", "Clock", "History", "Load", "Plan", "PlanEntry", "Particles", "View", "FieldView", "Probe"]),
     "results": ("Result files, comparison, cost",
                 ["Output", "Result", "Snapshot", "Difference", "compare", "Estimate", "estimate", "Settings", "settings",
-                 "load", "has_feature"]),
+                 "Sweep", "sweep", "load", "has_feature"]),
     "names": ("Names of choices", ["Density", "Field", "Fluidity", "InitialPressure", "Preset", "StepLimit", "Stress", "Wall"]),
     "errors": ("Exceptions", ["Error", "ArgumentError", "ArgumentTypeError", "DivergedError", "FileError", "InternalError",
                               "OutOfMemoryError", "SceneError", "StateError", "UnsupportedError", "VersionError",
