@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import importlib.util
+import sys
 from typing import TYPE_CHECKING, Any
 
 from ._library import ffi, lib
@@ -21,6 +22,17 @@ def require_tqdm(shown: bool) -> None:
         raise ImportError("a progress bar needs tqdm (Debian: python3-tqdm); or run with progress=False")
 
 
+def new_bar(**options: Any) -> Any:
+    """A bar of tqdm: in a notebook its widget, else text."""
+    require_tqdm(True)
+    from tqdm.auto import tqdm
+
+    widgets = sys.modules.get("ipywidgets")
+    if widgets is not None and widgets.version_info[0] < 7:  # Debian 12 has 6, of which tqdm 4.64 makes an AttributeError
+        from tqdm.std import tqdm
+    return tqdm(**options)
+
+
 class Progress:
     """with Progress(sim, t_end): a bar over simulated time while the block runs; nothing if not shown."""
 
@@ -31,10 +43,7 @@ class Progress:
     def __enter__(self) -> "Progress":
         if not self._shown:
             return self
-        require_tqdm(True)
-        from tqdm.auto import tqdm
-
-        self._bar = tqdm(total=self._t_end, initial=self._time(), unit="s", desc="simulated",
+        self._bar = new_bar(total=self._t_end, initial=self._time(), unit="s", desc="simulated",
                          bar_format="{desc} {n:.3f}/{total:g} s |{bar}| {percentage:3.0f} % [{elapsed}<{remaining}]")
         self._before = self._sim._engine.on_look
         self._sim._engine.on_look = self._look

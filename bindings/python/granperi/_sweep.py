@@ -15,7 +15,7 @@ from typing import Any, Iterable, Mapping
 import numpy as np
 
 from ._errors import ArgumentError, ArgumentTypeError, FileError, whole
-from ._progress import require_tqdm
+from ._progress import new_bar, require_tqdm
 from ._result import Result
 from ._scene import Scene, scene_of
 from ._state import State
@@ -257,6 +257,4 @@ def sweep(scene: Any, parameters: Any, directory: "str | os.PathLike[str]" = "sw
 def _with_bar(finished: Iterable[Any], count: int, progress: bool) -> Iterable[Any]:
     if not progress:
         return finished
-    from tqdm.auto import tqdm
-
-    return tqdm(finished, total=count, unit="run", desc="sweep")
+    return new_bar(iterable=finished, total=count, unit="run", desc="sweep")

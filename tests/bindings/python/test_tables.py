@@ -131,8 +131,8 @@ def test_plan_with_costs_on_the_command_line(tmp_path, capsys):
     assert force.split()[2:4] != ["7"] and float(force.split()[2]) > 0 and force.split()[3] == "7"
 
 
-def test_the_bar_of_a_notebook(sim, monkeypatch):
-    """tqdm.auto takes the widget where a notebook has one; where it has none, text, without a warning of ours."""
+def test_the_bar_of_a_notebook(sim, monkeypatch, capsys):
+    """tqdm.auto takes the widget where a notebook has one; where these are of another version, text."""
     pytest.importorskip("tqdm")
     shown = []
 
@@ -150,6 +150,10 @@ def test_the_bar_of_a_notebook(sim, monkeypatch):
     for _ in sim.frames(0.02, 0.01, progress=True):
         pass
     assert shown[-2:] == [0.02, "closed"]
+
+    monkeypatch.setitem(sys.modules, "ipywidgets", types.SimpleNamespace(version_info=(6, 0, 0, "final", 0)))  # Debian 12
+    sim.run(0.03, progress=True)
+    assert "0.030/0.03 s" in capsys.readouterr().err
 
 
 # ----------------------------------------------------------------------------------------------- MDAnalysis
