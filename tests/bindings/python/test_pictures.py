@@ -167,17 +167,6 @@ def test_mistakes(run, make_block, tmp_path):
         result[0].x
 
 
-def test_files_that_are_no_results(tmp_path):
-    import h5py
-
-    with h5py.File(tmp_path / "other.h5", "w"):
-        pass
-    with pytest.raises(granperi.FileError, match="no result file of granperi"):
-        granperi.Result(tmp_path / "other.h5")
-    with pytest.raises(granperi.FileError, match="cannot be read"):
-        granperi.Result(tmp_path / "nothing.h5")
-
-
 def test_without_matplotlib_the_package_works_and_pictures_say_what_is_missing(python):
     answer = python("""
 import sys
