@@ -137,12 +137,13 @@ def record_scene(scene: "Scene", path: "str | os.PathLike[str]", progress: bool,
     require_tqdm(progress)
     place = Place(path)
     with scene.build() as built:  # all mistakes in it are found before a file is touched
-        asked, probes = _Asked(built), scene.add_probes(built)
+        probes = scene.add_probes(built)
         if not resume:
             _require_new(place, overwrite, scene.probe_files(place.path))
             with place.locked():
                 _empty(place.part)
                 return _recorded(scene, built, probes, place, progress, checkpoint_seconds)
+        asked = _Asked(built)
     with place.locked():
         if os.path.exists(place.path) and not os.path.exists(place.in_part(place.path)):
             if len(os.listdir(place.part)) > 1:  # interrupted while it was put in its place

@@ -300,8 +300,11 @@ def _why_unreadable(path: str, error: OSError) -> str:
             ", of a run that is going on or was interrupted" if path.rstrip("/").endswith(".part") else "")
     if os.path.getsize(path) == 0:
         return "is empty: the run that made it was stopped before its first frame, or the disk was full; run it anew"
-    with open(path, "rb") as file:
-        begin = file.read(8)
+    try:
+        with open(path, "rb") as file:
+            begin = file.read(8)
+    except OSError as why:
+        return f"cannot be read: {why.strerror}"
     if begin != b"\x89HDF\r\n\x1a\n":
         return "is no HDF5 file" + (": ParaView opens this one; here name the .h5 beside it" if path.endswith(".xdmf") else
                                     ": expected a result file (.h5), not a scene; python -m granperi run makes one of it"

@@ -194,6 +194,13 @@ class Scene:
             raise SceneError(f"{self.name}: two probes have the same output: expected another one for each")
         return files
 
+    def write_into(self, name: str) -> None:
+        """Has the run write NAME.h5, and its probes files that begin with NAME."""
+        self.run.output = name + ".h5"
+        for part in self._probes():
+            if "output" in part.values:
+                part.values["output"] = f"{name}_{part.values['output']}"
+
     def record(self, path: "str | os.PathLike[str] | None" = None, progress: bool = False, *, overwrite: bool = False,
                resume: bool = False, checkpoint: float = CHECKPOINT_SECONDS) -> History:
         """Builds the scene and runs it as its table [run] says; the frames go to `path` or run.output ("": nowhere).

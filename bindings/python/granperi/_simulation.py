@@ -117,10 +117,11 @@ class Simulation:
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        raise AttributeError(f"a Simulation has no '{name}': {near_match(name, [n for n in dir(self) if n[0] != '_'])}")
+    if not TYPE_CHECKING:  # a type checker is to find what does not exist
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            raise AttributeError(f"a Simulation has no '{name}': {near_match(name, [n for n in dir(self) if n[0] != '_'])}")
 
     def __repr__(self) -> str:
         if self.closed:

@@ -109,15 +109,17 @@ def prepare(scene: Any, parameters: Any, directory: "str | os.PathLike[str]" = "
     """
     scene, directory = scene_of(scene), os.fspath(directory)
     points = points_of_parameters(parameters)
+    if own := [key for key in points[0] if key.rpartition(".")[2] == "output"]:
+        raise ArgumentError(f"key {own[0]!r}: a sweep names the files of its points itself")
     names = [_name_of(point) for point in points]
     if len(set(names)) < len(names):
         raise ArgumentError("parameters: two points are the same")
     texts = []
     for name, point in zip(names, points):
         one: Scene = copy.deepcopy(scene)
-        one.run.output = name + ".h5"
         for key, value in point.items():
             one.set(key, value)
+        one.write_into(name)
         one.name = f"{scene.name}, {name}"
         one.build().close()
         texts.append(one.text(os.path.abspath(directory)))

@@ -274,6 +274,29 @@ def test_resume_of_what_is_complete(scene, tmp_path):
 
 
 @needs_hdf5
+@pytest.mark.parametrize("moved", [1, 2, 3])
+def test_an_interruption_while_the_files_are_put_in_their_place(scene, tmp_path, moved):
+    scene.record()
+    before = everything(tmp_path)
+    part = tmp_path / "run.part"
+    part.mkdir()
+    for name in ("run.h5", "run.xdmf", "run.gpc", "probe.csv")[moved:]:
+        os.replace(tmp_path / name, part / name)
+    scene.record(resume=True)
+    assert everything(tmp_path) == before
+
+
+@needs_hdf5
+def test_an_interrupted_copy_of_a_complete_run_is_none(scene, tmp_path):
+    scene.record()
+    (tmp_path / "run.part").mkdir()
+    for name in ("run.gpc.new", "run.h5.new"):
+        (tmp_path / "run.part" / name).write_bytes(b"half of it")
+    scene.run.end = 0.22
+    assert scene.record(resume=True)[-1].time == 0.22
+
+
+@needs_hdf5
 @pytest.mark.parametrize("key, value, message", [
     ("config.spacing", 0.004, "config differs; spacing = 0.005 there, 0.004 here"),
     ("column.height", 0.06, "columns differ"), ("floor.friction", "free_slip", "plates differ")])

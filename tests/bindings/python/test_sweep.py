@@ -143,6 +143,16 @@ def test_an_interrupted_sweep_goes_on(scene, tmp_path):
     assert not [line for line in os.popen("ps -e -o args") if str(tmp_path) in line]
 
 
+def test_probes_of_points_have_files_of_their_own(scene, tmp_path):
+    scene.add("probe", plates=[0], every=0.01, output="load.csv")
+    scene.add("probe", plates=[0], every=0.02)
+    granperi.sweep(scene, {"config.seed": [1, 2]}, tmp_path / "s")
+    files = sorted(path.name for path in (tmp_path / "s").glob("*.csv"))
+    assert files == ["seed=1_load.csv", "seed=1_probe2.csv", "seed=2_load.csv", "seed=2_probe2.csv", "sweep.csv"]
+    with pytest.raises(granperi.ArgumentError, match="'run.output': a sweep names the files of its points itself"):
+        granperi.sweep(scene, {"run.output": ["a.h5"]}, tmp_path / "t")
+
+
 def test_names_of_points_are_names_of_files(scene, tmp_path):
     names = granperi._sweep.prepare(scene, {"floor.friction": ["no_slip", "free_slip"], "config.spacing": [0.01, 1 / 300]},
                                     tmp_path / "s")
