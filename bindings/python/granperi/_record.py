@@ -60,10 +60,6 @@ class Place:
         for name in [*self._names, *sorted(set(os.listdir(self.part)) - {*self._names, "lock"})]:
             if os.path.exists(source := os.path.join(self.part, name)):
                 os.replace(source, os.path.join(directory, name))
-        self.discard()
-
-    def discard(self) -> None:
-        shutil.rmtree(self.part, ignore_errors=True)
 
     def copy_to_part(self, series: list[str]) -> None:
         """The complete run once more beside its place, for it to be continued: whole copies or none, the result last."""
@@ -90,8 +86,8 @@ class Place:
             try:
                 yield
             finally:
-                if os.path.isdir(self.part) and os.listdir(self.part) == ["lock"]:  # nothing has been begun
-                    self.discard()
+                if os.listdir(self.part) == ["lock"]:  # all is in its place, or nothing has been begun
+                    shutil.rmtree(self.part, ignore_errors=True)
         finally:
             os.close(lock)
 

@@ -211,7 +211,7 @@ class Scene:
         interrupted, with the same bits as if it had not been, or makes a complete one longer (run.end), and does nothing
         where all is done. For that a checkpoint (collapse.gpc) is saved every `checkpoint` seconds of wall-clock time, when the
         run is interrupted, and at its end. One process at a time runs into a place: StateError. Another scene than the one
-        that was begun is an ArgumentError that says what differs; its threads, end, every and fields of frames may change.
+        that was begun is an ArgumentError that says what differs; its threads, end, until and every may change.
         """
         path = os.fspath(path) if path is not None else self.run.output
         if path:

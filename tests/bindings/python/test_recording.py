@@ -284,6 +284,10 @@ def test_an_interruption_while_the_files_are_put_in_their_place(scene, tmp_path,
         os.replace(tmp_path / name, part / name)
     scene.record(resume=True)
     assert everything(tmp_path) == before
+    part.mkdir()
+    os.replace(tmp_path / "run.gpc", part / "run.gpc")
+    scene.run.end = 0.21
+    assert scene.record(resume=True)[-1].time == 0.21 and not part.exists()
 
 
 @needs_hdf5
