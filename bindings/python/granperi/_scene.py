@@ -203,7 +203,8 @@ class Scene:
 
     def record(self, path: "str | os.PathLike[str] | None" = None, progress: bool = False, *, overwrite: bool = False,
                resume: bool = False, checkpoint: float = CHECKPOINT_SECONDS) -> History:
-        """Builds the scene and runs it as its table [run] says; the frames go to `path` or run.output ("": nowhere).
+        """Builds the scene and runs it as its table [run] says; the frames go to `path` or run.output ("": nowhere,
+        and the probes neither).
 
         Nothing is lost: all of the scene is checked before a file is touched, the run is written into a directory beside
         its place (collapse.part/ for collapse.h5), and moved there when it is complete. A result that exists is a FileError,
