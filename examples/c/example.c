@@ -246,8 +246,8 @@ static void print_summary(const gp_state *s, double rest_since, double cpu_secon
 }
 
 typedef struct {
-    double due;       /* s: the run stops after the first step at or past it, which leaves the steps as long as they are */
-    int64_t every;    /* steps between looks */
+    double due;    /* s: the run stops after the first step at or past it, which leaves the steps as long as they are */
+    int64_t every; /* steps between looks */
     gp_callback look; /* of the example; or NULL */
     void *user;
 } watch;
