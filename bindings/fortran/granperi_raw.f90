@@ -722,7 +722,11 @@ module granperi_raw
         end function
 
         !> Steps until the clock shows t_end (s) exactly; the last steps are shortened to land on it. t_end earlier than
-        !> the clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step.
+        !> the clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step. Looks on the way must not be
+        !> ends: each end is another run, in which single grains come to rest elsewhere. Frames of an output, and gp_run
+        !> to the same t_end again after a callback has stopped it, leave all steps as long as they are: int32_t
+        !> is_due(void *due, gp_sim *sim) { double time, dt; gp_get_clock(sim, &time, &dt, NULL); return time + 1e-9 *
+        !> dt >= *(double *)due; }
         function gp_run(sim, t_end) bind(c, name="gp_run") result(answer)
             import
             type(c_ptr), value :: sim

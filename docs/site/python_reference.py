@@ -6,9 +6,9 @@ import text
 PAGES = {
     "simulation": ("Simulation", ["Simulation"]),
     "scene": ("What a scene is made of", ["Config", "Material", "Column", "Plate", "Scene", "Run"]),
-    "reading": ("What is read", ["State", "Clock", "History", "Load", "PlanEntry", "Particles", "View", "FieldView"]),
-    "results": ("Result files, comparison",
-                ["Output", "Result", "Snapshot", "Difference", "compare", "load", "has_feature"]),
+    "reading": ("What is read", ["State", "Clock", "History", "Load", "Plan", "PlanEntry", "Particles", "View", "FieldView", "Probe"]),
+    "results": ("Result files, comparison, sweeps",
+                ["Output", "Result", "Snapshot", "Difference", "compare", "Sweep", "sweep", "load", "has_feature"]),
     "report": ("Error against run time", ["report", "Report", "Row", "Recommendation", "settings", "Settings"]),
     "names": ("Names of choices", ["Density", "Field", "Fluidity", "InitialPressure", "Preset", "StepLimit", "Stress", "Wall"]),
     "errors": ("Exceptions", ["Error", "ArgumentError", "ArgumentTypeError", "DivergedError", "FileError", "InternalError",

@@ -394,7 +394,16 @@ GP_API gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
 GP_API gp_status gp_step(gp_sim *sim, int64_t n);
 
 /* Steps until the clock shows t_end (s) exactly; the last steps are shortened to land on it. t_end earlier than the
- * clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step. */
+ * clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step.
+ *
+ * Looks on the way must not be ends: each end is another run, in which single grains come to rest elsewhere. Frames of an
+ * output, and gp_run to the same t_end again after a callback has stopped it, leave all steps as long as they are:
+ *
+ *     int32_t is_due(void *due, gp_sim *sim) {
+ *         double time, dt;
+ *         gp_get_clock(sim, &time, &dt, NULL);
+ *         return time + 1e-9 * dt >= *(double *)due;
+ *     } */
 GP_API gp_status gp_run(gp_sim *sim, double t_end);
 
 /* Called after every `every`-th step in the thread that runs gp_step or gp_run; a non-zero return stops the run. */

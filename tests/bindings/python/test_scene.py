@@ -169,8 +169,8 @@ def test_run_plot_animate_compare(python, scene_file, tmp_path):
 
 @pytest.mark.parametrize("arguments, status, message", [
     (("run", "nothing.toml"), 2, "nothing.toml: cannot be read"),
-    (("plot", "nothing.h5"), 1, "nothing.h5: cannot be read as an HDF5 file"),
-    (("plot", "scene.toml"), 1, "scene.toml: cannot be read as an HDF5 file"),
+    (("plot", "nothing.h5"), 1, "nothing.h5: there is no such file"),
+    (("plot", "scene.toml"), 1, "scene.toml: is no HDF5 file"),
     (("run", "scene.toml", "--spacing", "-1"), 2, "gp_config.spacing = -1"),
     (("run",), 2, "the following arguments are required: scene"),
     (("walk",), 2, "invalid choice: 'walk'"),
@@ -181,7 +181,7 @@ def test_mistakes_on_the_command_line(python, scene_file, tmp_path, arguments, s
 
 
 def test_help_of_every_command(python):
-    for command in ([], ["run"], ["plot"], ["animate"], ["compare"], ["info"]):
+    for command in ([], ["run"], ["sweep"], ["plot"], ["animate"], ["history"], ["compare"], ["info"]):
         answer = python("-m", "granperi", *command, "--help")
         assert answer.returncode == 0 and "usage: python -m granperi" in answer.stdout
     assert "[[column]]" in python("-m", "granperi", "run", "--help").stdout
