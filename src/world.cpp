@@ -40,6 +40,8 @@ std::unique_ptr<World> make_world(const Scene &scene) {
     world->ranges.resize(blocks);
     if (scene.config().collision_distance > 0)
         world->colliding.resize(p.count);
+    if (scene.config().collision_distance > 0 && !by_number_density(c.scheme))
+        world->crowded.resize(p.count);
     world->walls.period = c.period;
     for (const PlateSpec &spec : scene.plates())
         world->walls.plates.emplace_back(spec);

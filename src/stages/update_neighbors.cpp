@@ -75,6 +75,8 @@ void make_lists(World &world) {
         world.images.make(world.particles, c.period, 2 * radius);
         if (!world.colliding.empty())
             world.colliding.resize(world.particles.count + world.images.count);
+        if (!world.crowded.empty())
+            world.crowded.resize(world.particles.count + world.images.count);
     }
     find_clusters(world.particles, world.grid, world.images, radius, close,
                   world.walls.barriers(world.particles, world.grid, radius), tolerance, world.threads, world.clusters);
