@@ -9,13 +9,14 @@ import numpy as np
 from ._enums import StepLimit
 from ._errors import check
 from ._library import ffi, lib, text_of
+from ._objects import described
 
 
 @dataclasses.dataclass(frozen=True)
 class State:
     """Clock, energy ledger, shape and rest of a simulation at one instant (gp_state).
 
-    Energies are in J per metre of depth, momenta in kg/s, lengths in m, times in s.
+    Energies are in J per metre of depth, momenta in kg/s, lengths in m, times in s:
     """
 
     time: float
@@ -114,9 +115,7 @@ def read_clock(sim) -> Clock:
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """Load on a plate over the last step: fx, fy [N/m], torque about its first point [N] and torque_pivot about its pivot [N],
-    counter-clockwise; since the start its displacement dx, dy [m] and angle [rad], and the integrals over time impulse_x,
-    impulse_y [N s/m] and impulse_torque [N s] (of torque_pivot)."""
+    """Load of the material on a plate, and where the plate has got to."""
 
     fx: float
     fy: float
@@ -160,6 +159,11 @@ def read_plan(sim) -> list[PlanEntry]:
     check(lib.gp_get_plan(sim, n[0], entries, n))
     return [PlanEntry(text_of(e.name), text_of(e.reason), e.kind, bool(e.active), e.bytes, e.seconds, e.calls)
             for e in entries]
+
+
+State.__doc__ = described("gp_state", State.__doc__)
+Load.__doc__ = described("gp_load", Load.__doc__)
+PlanEntry.__doc__ = described("gp_plan_entry", PlanEntry.__doc__)
 
 
 class History:
