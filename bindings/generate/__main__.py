@@ -20,7 +20,7 @@ from cdef import write_cdef
 from fortran_raw import write_raw
 from fortran_types import write_types
 from header import HeaderError, read_header
-from python_reference import write_reference
+from python_meanings import write_reference
 from python_stubs import write_objects, write_plate
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))

@@ -5,7 +5,7 @@ import ast
 import os
 import re
 
-from python_reference import fields_of, type_of
+from python_meanings import fields_of, type_of
 from python_words import ENUMS, OBJECTS, Words
 
 PACKAGE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "python", "granperi")

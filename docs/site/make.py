@@ -77,7 +77,8 @@ def stage_guide(source):
     guide = os.path.join(ROOT, "docs", "guide")
     front = staged("guide/README.md")
     with open(os.path.join(guide, "README.md"), encoding="utf-8") as page:
-        pages = [link for _, _, link, _ in LINK.findall(page.read()) if "/" not in link and link.endswith(".md")]
+        links = [link for _, _, link, _ in LINK.findall(page.read()) if "/" not in link and link.endswith(".md")]
+    pages = list(dict.fromkeys(links))
     there = {name for name in os.listdir(guide) if name.endswith(".md")} - {"README.md"}
     if set(pages) != there:
         raise PageError("docs/guide/README.md does not name: %s" % ", ".join(sorted(there - set(pages))))
@@ -160,7 +161,9 @@ def main():
         if type(error).__module__ == "builtins":
             raise
         sys.exit("docs/site: %s" % error)
-    shutil.copy(os.path.join(ROOT, "docs", "site", "conf.py"), source)
+    for name in ("conf.py", "mathml.py"):
+        shutil.copy(os.path.join(ROOT, "docs", "site", name), source)
+    shutil.copytree(os.path.join(ROOT, "docs", "site", "static"), os.path.join(source, "static"))
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-n", "-b", "html",
                "-d", os.path.join(arguments.output, "doctrees"), source, html]
     if subprocess.run(command).returncode != 0:
