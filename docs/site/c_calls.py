@@ -77,7 +77,7 @@ def errors_of(function, doc, roles):
     others = [name for name in dict.fromkeys(named) if name not in GENERAL]
     if others:
         lines.append("- %s, as said above;" % text.linked(", ".join(others), roles))
-    lines.append("- %s" % text.linked("after an error, gp_last_error() says which argument had which value and what was expected.", roles))
+    lines.append("- %s" % text.linked("after an error, gp_last_error says which argument had which value and what was expected.", roles))
     return [*lines, ""]
 
 

@@ -64,12 +64,12 @@ def member_lines(doc, roles):
     """What a member means, and below it its unit and default where the comment has them."""
     words = " ".join(doc.split())
     default, unit = DEFAULT.search(words), UNIT.match(words)
-    fields = [":Unit: %s" % unit.group(1)] if unit else []
+    facts = ["*Unit:* %s." % unit.group(1)] if unit else []
     if default:
         words = words[:default.start()]
-        fields += [":Default: %s" % text.linked(default.group(1), roles)]
+        facts.append("*Default:* %s." % text.linked(default.group(1), roles))
     words = UNIT.sub("", words) if unit else words
-    return [*([text.linked(words, roles), ""] if words else []), *fields, ""]
+    return [*([text.linked(words, roles), ""] if words else []), *([" ".join(facts), ""] if facts else [])]
 
 
 def of_struct(struct, roles):

@@ -24,6 +24,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 REPORTS = ["validation", "stability", "performance", "settings", "hot-path", "trust", "abi"]
 EXAMPLES = {"c": (".c", ".h"), "fortran": (".f90",), "python": (".py",)}
 NEEDED = {"sphinx": "python3-sphinx", "myst_parser": "python3-myst-parser", "furo": "furo"}
+MATH_FONT = "/usr/share/texmf/fonts/opentype/public/lm-math/latinmodern-math.otf"  # fonts-lmodern
 LINK = re.compile(r"(!?)\[([^]]*)\]\(([^)#]*)(#[^)]*)?\)")
 
 
@@ -107,6 +108,15 @@ def stage_examples(source):
           "# Example programs\n\n```{toctree}\n:maxdepth: 1\n\n%s\n```\n" % "\n".join(pages))
 
 
+def stage_style(static):
+    """The style, and a font for equations where the system has one: browsers stretch brackets and roots with its help only."""
+    shutil.copytree(os.path.join(ROOT, "docs", "site", "static"), static)
+    if os.path.exists(MATH_FONT):
+        shutil.copy(MATH_FONT, static)
+        with open(os.path.join(static, "granperi.css"), "a", encoding="utf-8") as style:
+            style.write('@font-face { font-family: "Latin Modern Math"; src: url("%s"); }\n' % os.path.basename(MATH_FONT))
+
+
 def stage(source, cc):
     """Writes what Sphinx reads; returns the names that the pages have to hold."""
     for report in REPORTS:
@@ -163,7 +173,7 @@ def main():
         sys.exit("docs/site: %s" % error)
     for name in ("conf.py", "mathml.py"):
         shutil.copy(os.path.join(ROOT, "docs", "site", name), source)
-    shutil.copytree(os.path.join(ROOT, "docs", "site", "static"), os.path.join(source, "static"))
+    stage_style(os.path.join(source, "static"))
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-n", "-b", "html",
                "-d", os.path.join(arguments.output, "doctrees"), source, html]
     if subprocess.run(command).returncode != 0:
