@@ -98,12 +98,15 @@ def of_constants(constants, roles):
     return lines
 
 
-def of_function(function, roles, shared):
-    """The page of a call. shared: the function whose comment it shares."""
-    doc = text.paragraphs((shared or function).doc, roles)
+def of_function(function, roles, shared, callbacks):
+    """The page of a call. shared: the function whose comment it shares; callbacks: the types of functions that it may take."""
+    doc = text.paragraphs(shared.doc, roles)
+    for callback in callbacks:
+        if any(parameter.type.base == callback.name for parameter in function.parameters):
+            doc += ["", ":c:type:`%s`: %s" % (callback.name, text.linked(" ".join(callback.doc.split()), roles))]
     signature = "%s%s(%s)" % (c_type(function.result), function.name, parameters_of(function))
     return [*text.titled(function.name), ".. c:function:: " + signature.replace("  ", " "), "", *text.indented(doc), "",
-            *c_calls.argument_table(function, roles), *c_calls.errors_of(function, (shared or function).doc, roles),
+            *c_calls.argument_table(function, roles), *c_calls.errors_of(function, shared.doc, roles),
             *c_calls.example_lines(function), *c_calls.elsewhere(function)]
 
 
@@ -158,7 +161,7 @@ def write_c_reference(header_path, cc, directory):
                 shared = declaration if declaration.doc else shared
                 calls += ["   * - :doc:`%s`" % declaration.name, "     - " + text.linked(first_sentence(shared.doc), known)]
                 with open(os.path.join(directory, declaration.name + ".rst"), "w", encoding="utf-8") as page:
-                    page.write("\n".join(of_function(declaration, known, shared)))
+                    page.write("\n".join(of_function(declaration, known, shared, header.of(Callback))))
                 functions.append(declaration.name)
             else:
                 lines += of_declaration(declaration, known)
