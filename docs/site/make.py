@@ -22,7 +22,7 @@ from python_reference import write_python_reference  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 REPORTS = ["validation", "stability", "performance", "settings", "hot-path", "trust", "abi"]
-EXAMPLES = {"c": (".c", ".h"), "fortran": (".f90",), "python": (".py",)}
+EXAMPLES = {"c": (".c", ".h"), "fortran": (".f90",), "python": (".py", ".toml")}
 NEEDED = {"sphinx": "python3-sphinx", "myst_parser": "python3-myst-parser", "furo": "furo"}
 MATH_FONT = "/usr/share/texmf/fonts/opentype/public/lm-math/latinmodern-math.otf"  # fonts-lmodern
 LINK = re.compile(r"(!?)\[([^]]*)\]\(([^)#]*)(#[^)]*)?\)")
@@ -103,7 +103,7 @@ def stage_examples(source):
                 code = program.read()
             pages.append("%s/%s" % (language, name))
             write(os.path.join(source, "examples", pages[-1] + ".md"),
-                  "# %s\n\n```%s\n%s```\n" % (pages[-1], language, code))
+                  "# %s\n\n```%s\n%s```\n" % (pages[-1], "toml" if name.endswith(".toml") else language, code))
     write(os.path.join(source, "examples", "index.md"),
           "# Example programs\n\n```{toctree}\n:maxdepth: 1\n\n%s\n```\n" % "\n".join(pages))
 
