@@ -7,6 +7,8 @@ except ImportError as error:
     if "libgranperi" in str(error):
         what = ("the C library granperi was not found. Install it (cmake --install build, then sudo ldconfig), or name the "
                 "directory of libgranperi.so.0 in LD_LIBRARY_PATH")
+    elif "_cffi_backend" in str(error):
+        what = "cffi was not found. Install it: pip install cffi, on Debian python3-cffi"
     else:
         what = ("the extension module granperi._granperi is missing. Build it: pip install . in the root of the sources, or "
                 "cmake -DGRANPERI_BUILD_PYTHON=ON and PYTHONPATH=build/python")
