@@ -21,7 +21,7 @@ from fortran_reference import write_fortran_reference  # noqa: E402
 from python_reference import write_python_reference  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-REPORTS = ["validation", "stability", "performance", "settings", "hot-path", "trust", "abi"]
+REPORTS = ["validation", "stability", "performance", "settings", "report", "hot-path", "trust", "abi"]
 EXAMPLES = {"c": (".c", ".h"), "fortran": (".f90",), "python": (".py", ".toml")}
 NEEDED = {"sphinx": "python3-sphinx", "myst_parser": "python3-myst-parser", "furo": "furo"}
 MATH_FONT = "/usr/share/texmf/fonts/opentype/public/lm-math/latinmodern-math.otf"  # fonts-lmodern
@@ -163,7 +163,7 @@ def main():
         print("skipped: these packages are not installed: %s (scripts/install-dependencies docs)" % ", ".join(absent))
         return 77
     source, html = os.path.join(arguments.output, "source"), os.path.join(arguments.output, "html")
-    for old in (source, html):
+    for old in (source, html, os.path.join(arguments.output, "doctrees")):  # what pages were before may be elsewhere now
         shutil.rmtree(old, ignore_errors=True)
     try:
         functions, names, bound = stage(source, arguments.cc)

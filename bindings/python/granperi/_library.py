@@ -14,9 +14,15 @@ except ImportError as error:
                 "cmake -DGRANPERI_BUILD_PYTHON=ON and PYTHONPATH=build/python")
     raise ImportError(f"granperi: {what} ({error})", name=error.name, path=error.path) from error
 
-__all__ = ["ffi", "lib", "text_of"]
+__all__ = ["ffi", "has_feature", "lib", "text_of"]
 
 
 def text_of(pointer) -> str:
     """A C string as str; the library's texts are UTF-8 (paths in them may not be)."""
     return ffi.string(pointer).decode("utf-8", "replace")
+
+
+def has_feature(name: str) -> bool:
+    """Whether the library was built with "hdf5" or "openmp", or runs with the instructions of "x86-64-v3" (AVX2), "x86-64" and so on
+    (gp_has_feature has them all); False for other names."""
+    return isinstance(name, str) and bool(lib.gp_has_feature(name.encode("utf-8", "replace").replace(b"\0", b"?")))

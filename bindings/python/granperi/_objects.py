@@ -15,6 +15,7 @@ from ._enums import Density, InitialPressure, Preset, Stress, choice
 from ._errors import ArgumentTypeError, check, doubles, near_match, number, pointer, whole
 from ._library import ffi, lib
 from ._reference import MEANINGS
+from ._tables import as_html
 
 
 class Parameters:
@@ -105,6 +106,11 @@ class Parameters:
                  if isinstance(value, np.ndarray) or value != defaults[name] or name == "preset" and value]
         return f"{type(self).__name__}({', '.join(shown)})"
 
+    def _repr_html_(self) -> str:
+        defaults = self._own_defaults()
+        return as_html((type(self).__name__, "value", "default"),
+                       [(name, _plain(getattr(self, name)), _plain(defaults[name])) for name, _ in self])
+
     def __getstate__(self) -> dict[str, Any]:
         return copy.deepcopy(self._values)
 
@@ -162,6 +168,11 @@ def _shown(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"<{len(value)} values>"
     return repr(value.name.lower()) if isinstance(value, enum.Enum) else repr(value)
+
+
+def _plain(value: Any) -> Any:
+    """For tables: numbers as they are, the rest as its repr has it."""
+    return value if isinstance(value, (int, float)) and not isinstance(value, enum.Enum) else "" if value is None else _shown(value)
 
 
 def _types(struct: str) -> dict:

@@ -13,6 +13,7 @@ from ._enums import Density, InitialPressure, Preset, Stress, choice
 from ._errors import ArgumentTypeError, check, doubles, near_match, number, pointer, whole
 from ._library import ffi, lib
 from ._reference import MEANINGS
+from ._tables import as_html
 
 
 class Parameters:
@@ -46,6 +47,8 @@ class Parameters:
 
     def __repr__(self) -> str: ...
 
+    def _repr_html_(self) -> str: ...
+
     def __getstate__(self) -> dict[str, Any]: ...
 
     def __setstate__(self, state: dict[str, Any]) -> None: ...
@@ -67,6 +70,10 @@ class Parameters:
     def _init_arguments(self) -> tuple: ...
 
 def _shown(value: Any) -> str: ...
+
+def _plain(value: Any) -> Any:
+    """For tables: numbers as they are, the rest as its repr has it."""
+    ...
 
 def _types(struct: str) -> dict: ...
 
@@ -229,7 +236,7 @@ class Config(Parameters):
     sound_speed: float
     """m/s, artificial; 0: 10 x the largest speed that the scene can reach by falling from its highest to its lowest point, by its initial and plate velocities; or, if that is more, 60 x the speed of the hardest blow that it begins with: of a column that falls freely, through an opening too, or is thrown, against a plate or another column (not with Density.NUMBER, nor with a time_step). The log says so and what it costs. Else at least 1e-9 [0]"""
     cfl: float
-    """time step over dl / (elastic wave speed), with Stress.REGULARIZED dl / c0; 0: the scheme's own, 0.8 or of the schemes of [1] 0.2; else 1e-6 .. 2 [0]"""
+    """time step over dl / (elastic wave speed), with Stress.REGULARIZED dl / c0; 0: the scheme's own, 0.45 of what is stable with the horizon in use (horizon 2.5: 0.59, 3: 0.71, 4: 0.95, 6: 1.42), down to 0.38 of it where the material moves by more than 0.06 dl in a step and where a blow is foreseen; of the schemes of [1] 0.2. Else 1e-6 .. 8; beyond State.dt_limit (at least 1.18, 1.44, 1.93, 2.88 by the default coefficients, 1.0 in the schemes of [1]) it is refused at the first step, but see allow_unstable_step [0]"""
     time_step: float
     """s, fixed; 0: adaptive, by the smallest of the limits StepLimit.SOUND to StepLimit.VISCOSITY. Beyond State.dt_limit: refused at the first step, but see allow_unstable_step [0]"""
     interaction_radius: float

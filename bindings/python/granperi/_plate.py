@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ._enums import Fluidity, Wall
-from ._errors import ArgumentError, ArgumentTypeError, doubles, number
+from ._errors import ArgumentError, ArgumentTypeError, doubles, number, refuse_masked
 from ._objects import Parameters, _signed
 
 
@@ -33,7 +33,7 @@ class Plate(Parameters):
 
     def _set(self, name: str, value: Any) -> None:
         if name == "points":
-            x, y = (None, None) if value is None else _columns("gp_plate.points", value)
+            x, y = (None, None) if value is None else points_of("gp_plate.points", value)
             super()._set("point_x", x)
             super()._set("point_y", y)
         else:
@@ -118,7 +118,7 @@ class Plate(Parameters):
         the left), of a closed line "inside" or "outside". The plate's own way has it on its right, so it may be the other
         one round: surface_velocity goes by the plate's.
         """
-        x, y = _columns("points", points)
+        x, y = points_of("points", points)
         if closed and len(x) and (x[0] != x[-1] or y[0] != y[-1]):
             x, y = np.append(x, x[0]), np.append(y, y[0])
         if _turned_round(x, y, material):
@@ -140,7 +140,9 @@ def _turned_round(x: np.ndarray, y: np.ndarray, material: str) -> bool:
     return bool(area > 0) == (material == "inside")
 
 
-def _columns(name: str, points: Any) -> tuple[np.ndarray, np.ndarray]:
+def points_of(name: str, points: Any) -> tuple[np.ndarray, np.ndarray]:
+    """x and y of points of the shape (n, 2), or the error on what is none."""
+    refuse_masked(name, points)
     try:
         array = np.asarray(points)
     except ValueError:  # rows of different lengths

@@ -5,7 +5,7 @@ import math
 from typing import Any, Iterator, Literal, TypedDict, Unpack
 import numpy as np
 from ._enums import Fluidity, Wall
-from ._errors import ArgumentError, ArgumentTypeError, doubles, number
+from ._errors import ArgumentError, ArgumentTypeError, doubles, number, refuse_masked
 from ._objects import Parameters, _signed
 
 
@@ -175,4 +175,6 @@ def _turned_round(x: np.ndarray, y: np.ndarray, material: str) -> bool:
     """Whether the material is on the left of the way through these points."""
     ...
 
-def _columns(name: str, points: Any) -> tuple[np.ndarray, np.ndarray]: ...
+def points_of(name: str, points: Any) -> tuple[np.ndarray, np.ndarray]:
+    """x and y of points of the shape (n, 2), or the error on what is none."""
+    ...
