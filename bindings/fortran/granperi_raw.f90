@@ -341,11 +341,12 @@ module granperi_raw
         real(c_double) :: time !! s
         integer(c_int64_t) :: step !! steps taken
         real(c_double) :: dt !! s, last time step
-        integer(c_int64_t) :: n_particles
+        integer(c_int64_t) :: n_particles !! how many there are
         integer(c_int64_t) :: n_awake
+            !! particles that take part in the work: all of them but for those that sleep (gp_config.sleep)
+        real(c_double) :: kinetic
             !! Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals kinetic +
             !! potential + elastic + dissipated + plate_work + energy_error.
-        real(c_double) :: kinetic
         real(c_double) :: potential
             !! gravitational, zero at the lowest face of the initial material. gp_set_gravity leaves it as it is: from
             !! there on it is less by what the new gravity has done, and may fall below 0
@@ -416,18 +417,50 @@ module granperi_raw
             !! that damp, not for the flow
         real(c_double) :: max_compression !! largest density over the material's own so far, less 1
         real(c_double) :: spacing_dissipated
+            !! J/m, the part that making the density follow the spacing of the particles took: below 0, it compresses
+            !! what flows
+        real(c_double) :: x_q01
             !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
             !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
             !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
             !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
             !! single grains set, they converge with the spacing. 0 without particles, as the next four
-        real(c_double) :: x_q01
         real(c_double) :: x_q05
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q25
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q50
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q75
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q95
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q99
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: centre_x !! m, centre of mass
         real(c_double) :: centre_y !! m, centre of mass
         real(c_double) :: detached

@@ -504,7 +504,7 @@ typedef struct gp_state {
     double time;          /* s */
     int64_t step;         /* steps taken */
     double dt;            /* s, last time step */
-    int64_t n_particles;
+    int64_t n_particles;  /* how many there are */
     int64_t n_awake;      /* particles that take part in the work: all of them but for those that sleep (gp_config.sleep) */
     /* Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals
      * kinetic + potential + elastic + dissipated + plate_work + energy_error. */

@@ -7,9 +7,11 @@ except ImportError as error:
     if "libgranperi" in str(error):
         what = ("the C library granperi was not found. Install it (cmake --install build, then sudo ldconfig), or name the "
                 "directory of libgranperi.so.0 in LD_LIBRARY_PATH")
+    elif "_cffi_backend" in str(error):
+        what = "cffi was not found. Install it: pip install cffi, on Debian python3-cffi"
     else:
-        what = ("the extension module granperi._granperi is missing. Build it: pip install --no-build-isolation --no-index "
-                "bindings/python, or cmake -DGRANPERI_BUILD_PYTHON=ON and PYTHONPATH=build/python")
+        what = ("the extension module granperi._granperi is missing. Build it: pip install . in the root of the sources, or "
+                "cmake -DGRANPERI_BUILD_PYTHON=ON and PYTHONPATH=build/python")
     raise ImportError(f"granperi: {what} ({error})", name=error.name, path=error.path) from error
 
 __all__ = ["ffi", "has_feature", "lib", "text_of"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import tempfile
 import weakref
-from typing import TYPE_CHECKING, Any, Callable, Iterator
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Mapping
 
 import numpy as np
 
@@ -27,7 +27,12 @@ from ._state import Clock, History, Load, Plan, State
 from ._views import Particles, View
 
 if TYPE_CHECKING:
+    from typing import Unpack
+
     from numpy.typing import NDArray
+
+    from ._objects import ColumnValues, ConfigValues, MaterialValues
+    from ._plate import PlateValues
 
 _INTEGERS = {"id": np.int64, "column": np.int32}
 
@@ -65,7 +70,7 @@ class Simulation:
         fluidity: NDArray[np.float64]
         speed: NDArray[np.float64]
 
-    def __init__(self, config: Config | None = None, **values: Any):
+    def __init__(self, config: Config | None = None, **values: Unpack[ConfigValues]):
         """config: a Config, or its parameters by keyword."""
         self._config = _taken(Config, config, values)
         self._start(self._create())
@@ -145,19 +150,19 @@ class Simulation:
         """Copies of the plates as they were added, by number."""
         return tuple(plate.replace() for plate in self._plates)
 
-    def add_material(self, material: Material | None = None, **values: Any) -> int:
+    def add_material(self, material: Material | None = None, **values: Unpack[MaterialValues]) -> int:
         """Adds a Material, or one of these parameters; returns its number. Material 0, glass beads, is always there."""
         return self._add("material", Material, material, values, self._materials)
 
-    def add_column(self, column: Column | None = None, **values: Any) -> int:
+    def add_column(self, column: Column | None = None, **values: Unpack[ColumnValues]) -> int:
         """Adds a rectangle of particles; returns its number, which is the value of the field column."""
         return self._add("column", Column, column, values, self._columns)
 
-    def add_plate(self, plate: Plate | None = None, **values: Any) -> int:
+    def add_plate(self, plate: Plate | None = None, **values: Unpack[PlateValues]) -> int:
         """Adds a Plate, or one of these parameters: a floor, wall, gate, lid or line; returns its number."""
         return self._add("plate", Plate, plate, values, self._plates)
 
-    def _add(self, name: str, kind: type[Parameters], given: Any, values: dict[str, Any], kept: list) -> int:
+    def _add(self, name: str, kind: type[Parameters], given: Any, values: Mapping[str, Any], kept: list) -> int:
         thing = _taken(kind, given, values)
         number_out = ffi.new("int32_t *")
         with self._changing("add_" + name) as engine:
@@ -532,7 +537,7 @@ def _what_instead(path: str) -> str:
     return "; frames of a result file are read by granperi.Result" if path.endswith((".h5", ".hdf5")) else ""
 
 
-def _taken(kind: type[Parameters], given: Any, values: dict[str, Any]) -> Any:
+def _taken(kind: type[Parameters], given: Any, values: Mapping[str, Any]) -> Any:
     """The object given, with the values given, or a new one; always one that nobody else can change."""
     if given is None:
         return kind(**values)

@@ -10,6 +10,7 @@ import numpy as np
 from ._enums import StepLimit
 from ._errors import check
 from ._library import ffi, lib, text_of
+from ._objects import described
 from ._tables import as_html, write_csv
 
 
@@ -17,7 +18,7 @@ from ._tables import as_html, write_csv
 class State:
     """Clock, energy ledger, shape and rest of a simulation at one instant (gp_state).
 
-    Energies are in J per metre of depth, momenta in kg/s, lengths in m, times in s.
+    Energies are in J per metre of depth, momenta in kg/s, lengths in m, times in s:
     """
 
     time: float
@@ -122,9 +123,7 @@ def read_clock(sim) -> Clock:
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """Load on a plate over the last step: fx, fy [N/m], torque about its first point [N] and torque_pivot about its pivot [N],
-    counter-clockwise; since the start its displacement dx, dy [m] and angle [rad], and the integrals over time impulse_x,
-    impulse_y [N s/m] and impulse_torque [N s] (of torque_pivot)."""
+    """Load of the material on a plate, and where the plate has got to."""
 
     fx: float
     fy: float
@@ -188,6 +187,11 @@ def read_plan(sim) -> Plan:
     check(lib.gp_get_plan(sim, n[0], entries, n))
     return Plan(PlanEntry(text_of(e.name), text_of(e.reason), e.kind, bool(e.active), e.bytes, e.seconds, e.calls)
                 for e in entries)
+
+
+State.__doc__ = described("gp_state", State.__doc__)
+Load.__doc__ = described("gp_load", Load.__doc__)
+PlanEntry.__doc__ = described("gp_plan_entry", PlanEntry.__doc__)
 
 
 class History:
