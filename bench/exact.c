@@ -4,7 +4,7 @@
  *
  * Resolution: particles over the thickness of the layer (hydrostatic: height of the column). --sound-speed is in largest
  * flow speeds. Every steady flow starts from its exact solution, so the error is what the scheme makes of it. */
-#include "exact.h"
+#include "exact_cases.h"
 
 #include <stdio.h>
 #include <stdlib.h>

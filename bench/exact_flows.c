@@ -1,5 +1,5 @@
 /* Steady flows, one start-up, and the slope on which the flow ends. */
-#include "exact.h"
+#include "exact_cases.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "exact.h"
+#include "exact_layer.h"
 
 #include <math.h>
 #include <stdio.h>

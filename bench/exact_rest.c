@@ -1,5 +1,5 @@
 /* Material at rest or sheared as a block, and the gradient alone. */
-#include "exact.h"
+#include "exact_cases.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -50,7 +50,7 @@ void trial_options(trial *t, bench_option *options) {
          2},
         {"--lift-time", "s in which a gate clears its column; 0: no gates [0]", BENCH_NUMBER, &t->lift_time, 0, 1e6},
         {"--sound-factor", "times the automatic sound speed [1]", BENCH_NUMBER, &t->sound_factor, 1e-3, 1e3},
-        {"--cfl", "[the scheme's]", BENCH_NUMBER, &t->cfl, 0, 2},
+        {"--cfl", "beyond the stable limit too; 0: the scheme's own [0]", BENCH_NUMBER, &t->cfl, 0, 8},
         {"--courant", "wave speed x dt / dl of a fixed time step, stable or not [none]", BENCH_NUMBER, &t->courant,
          1e-6, 1e3},
         {"--horizon", "spacings [the scheme's]", BENCH_NUMBER, &t->horizon, 1.8, 8},
@@ -106,6 +106,7 @@ static gp_config config_of(const trial *t) {
     config.jitter = t->jitter;
     config.seed = (uint64_t)t->seed;
     set(&config.cfl, t->cfl);
+    config.allow_unstable_step = !isnan(t->cfl);
     set(&config.horizon, t->horizon);
     set(&config.interaction_radius, t->interaction_radius);
     set(&config.delta, t->delta);

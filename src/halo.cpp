@@ -117,6 +117,24 @@ void Halo::copy(Field<uint8_t> &field) {
         [&](int32_t j, const double *in) { field[j] = static_cast<uint8_t>(*in); });
 }
 
+void Halo::copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
+                           Field<float> &crowded) {
+    exchange(
+        static_cast<int>(fields.size()) + 2,
+        [&](int32_t i, double, double *out) {
+            for (const Field<double> *field : fields)
+                *out++ = (*field)[i];
+            *out++ = partners[i];
+            *out = crowded[i];
+        },
+        [&](int32_t j, const double *in) {
+            for (Field<double> *field : fields)
+                (*field)[j] = *in++;
+            partners[j] = static_cast<uint8_t>(*in++);
+            crowded[j] = static_cast<float>(*in);
+        });
+}
+
 void Halo::copy_motion(Particles &p) {
     exchange(
         4,

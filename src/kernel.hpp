@@ -21,6 +21,8 @@ struct LatticeSums {
     double number_density = 0; // N0 = sum of w ([1] 2.4)
     double row = 0;            // the part of N0 of one's own row
     double second_moment = 0;  // k0: the full-lattice shape tensor is k0 times the unit tensor; m^2
+    double surface_lack = 0;   // what a particle in the row at a free surface lacks to N0
+    double surface_moment = 0; // its first moment, |sum w r|; m
 };
 
 // Sums over the neighbours of one particle of an infinite lattice with the given spacing.
@@ -36,7 +38,9 @@ inline LatticeSums lattice_sums(double radius, double spacing) {
             sums.number_density += w;
             sums.row += j == 0 ? w : 0.0;
             sums.second_moment += w * x * x;
+            sums.surface_moment += y > 0 ? w * y : 0.0;
         }
+    sums.surface_lack = 0.5 * (sums.number_density - sums.row);
     return sums;
 }
 

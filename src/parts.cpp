@@ -205,6 +205,8 @@ void resize_part(World &world, int64_t count) {
     world.ranges.assign(static_cast<std::size_t>(blocks), BlockRange{INFINITY, -INFINITY, INFINITY, -INFINITY});
     if (!world.colliding.empty())
         world.colliding.resize(static_cast<std::size_t>(std::max<int64_t>(1, count)));
+    if (!world.crowded.empty())
+        world.crowded.resize(static_cast<std::size_t>(std::max<int64_t>(1, count)));
 }
 
 } // namespace gp

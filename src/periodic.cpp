@@ -82,6 +82,18 @@ void Images::copy(Field<uint8_t> &field) const {
         field[first_ + k] = field[source_[k]];
 }
 
+void Images::copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
+                             Field<float> &crowded) const {
+    if (halo_) {
+        halo_->copy_collisions(fields, partners, crowded);
+        return;
+    }
+    copy(fields);
+    copy(partners);
+    for (int64_t k = 0; k < count; ++k)
+        crowded[first_ + k] = crowded[source_[k]];
+}
+
 void Images::copy_motion(Particles &p) const {
     if (halo_) {
         halo_->copy_motion(p);

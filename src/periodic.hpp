@@ -30,6 +30,9 @@ public:
     void copy(std::initializer_list<Field<double> *> fields) const;
     void copy(Field<double> &field) const { copy({&field}); }
     void copy(Field<uint8_t> &field) const;
+    // All of them in one message.
+    void copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
+                         Field<float> &crowded) const;
     void copy_motion(Particles &particles) const; // positions and velocities
 
     // The particle that an index of the neighbour lists stands for; not of a part of a world.

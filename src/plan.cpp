@@ -257,6 +257,11 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     entries.push_back(field_entry("colliding", t.collisions,
                                   t.collisions ? "collision_distance > 0" : "collision_distance is 0",
                                   bytes_of(world.colliding)));
+    entries.push_back(field_entry("crowded", t.collisions && !viscous,
+                                  !t.collisions ? "collision_distance is 0"
+                                  : viscous     ? by_number
+                                                : "crowded pairs are moved apart, not braked, by collisions",
+                                  bytes_of(world.crowded)));
     int64_t kept = 0;
     for (const Field<double> &field : world.step_start.copied)
         kept += bytes_of(field);

@@ -22,7 +22,7 @@ void check_config(const gp_config &c) {
     require(c.sound_speed == 0 || c.sound_speed >= 1e-9, "gp_config.sound_speed", c.sound_speed,
             "0 or a number of at least 1e-9 m/s");
     if (c.cfl != 0)
-        require_between("gp_config.cfl", c.cfl, 1e-6, 2);
+        require_between("gp_config.cfl", c.cfl, 1e-6, 8);
     require_not_negative("gp_config.time_step", c.time_step);
     require_between("gp_config.interaction_radius", c.interaction_radius, 1.5, 8);
     require_between("gp_config.horizon", c.horizon, 1.8, 8);

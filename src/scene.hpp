@@ -126,8 +126,8 @@ constexpr double sound_to_flow_speed = 10.0;
 //     50      .6 to 2.8     0 to 1.0    -0.6 to -2.2
 //     60      .6 to 2.5     0 to 1.0    -0.5 to -1.8
 //
-// The energy error is in proportion to the time step, too (33: -3.8, -1.8, -.9, -.5 % with cfl .8, .4, .2, .1), so a longer step
-// with a smaller sound speed is no gain. There is no plateau in what becomes of a block that falls far: the stiffer, the less of
+// These with cfl .8. The energy error is in proportion to the time step, too (33: -3.8, -1.8, -.9, -.5 % with cfl .8, .4, .2, .1), so
+// a longer step with a smaller sound speed is no gain. There is no plateau in what becomes of a block that falls far: the stiffer, the less of
 // its energy it springs back with (a block of 20 x 10 spacings from .5 m: .30, .19, .09 with c0 / v = 10, 33, 100), and the
 // narrower its heap (the middle half of its mass within .64, .57, .39, .25 m with 10, 20, 40, 80).
 constexpr double most_blow = 1.0 / 60;
@@ -162,7 +162,10 @@ struct Constants {
     double fall_height;            // m, that the flow speed is based on
     double plate_mass;             // kg/m2, of a loaded plate that has none of its own
     double plate_step;             // s, largest step that is stable for the lightest loaded plate
-    double viscous_step;           // s, largest step that is stable for the coefficients that damp
+    double sound_step;             // s, largest step that is stable for elastic waves
+    double own_step;               // s, that the scheme takes of its own accord
+    double quick_step;             // s, the same where the material moves quickly
+    double viscous_step;           // s, the same with the coefficients that damp
     double contrast_step;          // s, largest step that is stable where materials of different density meet
     double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     double elastic_penalty;        // the same inside the yield surface, over that

@@ -101,7 +101,8 @@ std::string text_of_compression(const World &world, const Compressed &found) {
     const Constants &c = world.constants;
     const Particles &p = world.particles;
     const double by_pressure = c.sound_speed * std::sqrt(found.most / good_compression);
-    const double speed = approach_to(world, found.particle), by_blow = speed / most_blow;
+    // Seen some steps after it has begun a blow is slower than it was: where the scene foresees one, by the speed of that.
+    const double speed = approach_to(world, found.particle), hardest = std::max(speed, c.impact.speed);
     std::string text = format_text("compression of %.3g %% at (%g, %g) m, time %g s: ", 100 * found.most,
                                    p.x[found.particle], p.y[found.particle], world.clock.time);
     // Where it is densest a blow compresses by up to three times that ratio, a squeeze at any speed.
@@ -112,7 +113,7 @@ std::string text_of_compression(const World &world, const Compressed &found) {
                format_text("what is stopped at %.3g m/s, as in a blow or a jet, is compressed by the ratio of that "
                            "and the sound speed of %g m/s; set gp_config.sound_speed to about %.3g or let it "
                            "meet more slowly",
-                           speed, c.sound_speed, std::max(by_blow, by_pressure));
+                           hardest, c.sound_speed, std::max(hardest / most_blow, by_pressure));
     return text + format_text("the sound speed of %g m/s is too low for what acts here; set gp_config.sound_speed to "
                               "about %.3g",
                               c.sound_speed, by_pressure);

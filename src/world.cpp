@@ -24,6 +24,8 @@ std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &cons
     world->ranges.resize(blocks);
     if (scene.config().collision_distance > 0)
         world->colliding.resize(count);
+    if (scene.config().collision_distance > 0 && !by_number_density(c.scheme))
+        world->crowded.resize(count);
     world->walls.period = c.period;
     world->walls.load_scale = LoadScale(c);
     for (const PlateSpec &spec : scene.plates())

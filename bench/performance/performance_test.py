@@ -14,6 +14,7 @@ from smoke import Workplace  # first: skips where NumPy is missing
 import numpy as np
 
 import measures
+import plots
 import results
 import runs
 from run import cheapest_first
@@ -91,7 +92,8 @@ def main() -> None:
     peak = measures.reference(collection, "a1.25").value["peak"] / runs.SCENES["a1.25"].length
     assert f"{peak:.3f} ±" in report, "the table of converged solutions has the peak"
     assert "holds 0 bytes" in report and "Missing runs" in report and " nan" not in report.lower()
-    assert images == ["performance_collapse.png", "performance_growth.png"], images
+    assert images == ["performance_growth.png"], images
+    assert plots.others(place.found / "column.png", collection, ("a1.25",)), "there are points to draw"
     names = [one.name for one in cheapest_first(runs.studies())]
     assert len(names) == len(set(names)) and all("/" not in name for name in names)
 

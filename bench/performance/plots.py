@@ -15,15 +15,6 @@ from plotting import Figures, finish, legend_above
 from results import Collection
 
 HORIZON_COLORS = {2.2: "#CC79A7", 2.5: "#E69F00", 3.0: "#009E73", 4.0: "#0072B2"}
-SETTING_STYLES = {
-    "cfl0.2": ("v", "#0072B2"), "cfl0.4": ("<", "#0072B2"), "cfl1": (">", "#0072B2"),
-    "sound0.5": ("1", "#0072B2"), "sound0.7": ("2", "#0072B2"), "sound2": ("3", "#0072B2"),
-    "cheap4": ("d", "#56B4E9"), "cheap3": ("d", "#009E73"), "cheap2.5": ("d", "#E69F00"),
-    "paper": ("x", "#D55E00"), "local": ("+", "#882255"), "local_radius2.5": ("+", "#AA4499"),
-    "local_radius3": ("+", "#CC6677"),
-    "implicit": ("*", "0.45"),
-}  # fmt: skip
-PEER_STYLES = {"Matter": ("P", "black"), "Basilisk": ("X", "0.4"), "LAMMPS": ("h", "0.6")}
 FLOOR = 1e-4  # below, an error is drawn here
 SHOWN = (0.3, 80)  # %, of collapses: bars of errors may reach down to zero
 
@@ -54,13 +45,12 @@ def _work_precision(ax: Axes, points: list[Point], ref: Reference, quantity: str
             [p.cost for p in line], [_percent(e.one_run) for e in errors], np.nan_to_num([100 * e.one_run_doubt for e in errors]),
             color=HORIZON_COLORS[horizon], marker="o", ms=5, lw=1.6, capsize=2, label=f"horizon {horizon:g}",
         )  # fmt: skip
-    for key, (marker, color) in SETTING_STYLES.items():
-        line = [p for p in points if p.setting == key]
-        if line:
-            ax.plot(
-                [p.cost for p in line], [_percent(measures.error(p.result, ref, quantity).one_run) for p in line],
-                linestyle="none", marker=marker, color=color, ms=8, mew=1.8, label=runs.SETTINGS[key].label,
-            )  # fmt: skip
+    line = [p for p in points if p.setting]  # which is which is in the table
+    if line:
+        ax.plot(
+            [p.cost for p in line], [_percent(measures.error(p.result, ref, quantity).one_run) for p in line],
+            linestyle="none", marker="x", color="0.55", ms=7, mew=1.6, label="other settings",
+        )  # fmt: skip
     for p in points:
         off = measures.error(p.result, ref, quantity).one_run if p.resolution != ref.resolution else np.nan
         places.append((p.cost, off))
@@ -74,43 +64,12 @@ def _work_precision(ax: Axes, points: list[Point], ref: Reference, quantity: str
     return places
 
 
-def _draw_peers(ax: Axes, ref: Reference, quantity: str) -> None:
-    """They have a peak and an outermost point."""
-    if quantity not in ("peak", "tip"):
-        return
-    for peer in measures.peers(ref):
-        marker, color = PEER_STYLES[peer.label.split()[0]]
-        off = peer.peak if quantity == "peak" else peer.tip
-        ax.plot([peer.cost], [_percent(off)], marker, color=color, ms=9, mfc="none" if peer.inflated else color)
-        text = f"{peer.resolution}" if peer.resolution else "discs"
-        place = (6, 5) if peer.resolution else (-10, -14)
-        ax.annotate(text, (peer.cost, _percent(off)), textcoords="offset points", xytext=place, fontsize=9)
-
-
-def collapse(path: Path, results: Collection) -> bool:
-    ref, points = measures.reference(results, "a1.25"), measures.points(results, "a1.25")
-    if not ref or len(points) < 2:
-        return False
-    figure, axes = plt.subplots(2, 2, figsize=(15, 12), layout="constrained", sharex=True, sharey=True)
-    for ax, quantity in zip(axes.flat, ("peak", "bulk", "front", "tip")):
-        _work_precision(ax, points, ref, quantity)
-        _draw_peers(ax, ref, quantity)
-    for name, (marker, color) in PEER_STYLES.items():
-        axes[0, 0].plot([], [], marker, color=color, linestyle="none", label=f"{name} (hollow: busy machine)")
-    for ax in axes[:, 0]:
-        ax.set_ylabel("error of one run (%)")
-    for ax in axes[0]:
-        ax.set_xlabel("")
-    legend_above(figure, axes[0, 0], 4)
-    return finish(figure, path)
-
-
-def others(path: Path, results: Collection) -> bool:
-    found = [(s, measures.reference(results, s), measures.points(results, s)) for s in ("a5", "one_side")]
+def others(path: Path, results: Collection, scenes: tuple[str, ...] = ("a5", "one_side")) -> bool:
+    found = [(s, measures.reference(results, s), measures.points(results, s)) for s in scenes]
     shown = [(s, ref, points) for s, ref, points in found if ref and len(points) > 1]
     if not shown:
         return False
-    figure, axes = plt.subplots(len(shown), 2, figsize=(14, 6 * len(shown)), layout="constrained", squeeze=False)
+    figure, axes = plt.subplots(len(shown), 2, figsize=(11, 5.2 * len(shown)), layout="constrained", squeeze=False)
     for row, (scene, ref, points) in zip(axes, shown):
         for ax, quantity in zip(row, measures.AIMED_AT):
             _work_precision(ax, points, ref, quantity)
@@ -120,7 +79,7 @@ def others(path: Path, results: Collection) -> bool:
 
 
 def exact(path: Path, results: Collection) -> bool:
-    figure, axes = plt.subplots(2, 4, figsize=(19, 9.5), layout="constrained")
+    figure, axes = plt.subplots(4, 2, figsize=(10.5, 16), layout="constrained")  # as wide as a page: readable at half size
     drawn = False
     for ax, case in zip(axes.flat, runs.CASES.values()):
         places: list[tuple[float, float]] = []
@@ -146,13 +105,12 @@ def exact(path: Path, results: Collection) -> bool:
         drawn = drawn or bool(places)
         _log_log(ax)
         ax.set_title(case.label, fontsize=14)
-        ax.set_ylabel(f"error (%), {case.unit}", fontsize=12)
-    for ax in axes[1]:
+        ax.set_ylabel(f"error (%), {case.unit}", fontsize=13)
         ax.set_xlabel("CPU s")
     last = axes.flat[len(runs.CASES) :]
     for ax in last:
         ax.set_visible(False)
-    legend_above(figure, axes.flat[1], 4)
+    legend_above(figure, axes.flat[1], 3)
     return drawn and finish(figure, path)
 
 
@@ -201,4 +159,4 @@ def growth(path: Path, results: Collection) -> bool:
     return finish(figure, path)
 
 
-FIGURES: Figures = {"collapse": collapse, "others": others, "exact": exact, "growth": growth}
+FIGURES: Figures = {"others": others, "exact": exact, "growth": growth}

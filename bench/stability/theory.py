@@ -121,7 +121,7 @@ def interior(horizon: float, bulk: float = 0.1, penalty: float = 0.02, shear: fl
     dx, dy = _symbols(horizon, w * r, True)
     q2 = (dx**2 + dy**2) / moment**2
     pairs, _ = _symbols(horizon, w, False)
-    unseen = pairs - moment * q2
+    unseen = pairs - moment * q2 / 2
     damping = (2 if shear else 1) * bulk * q2 + (inside_yield(penalty) if shear else penalty) / w.sum() * unseen
     stiffness = np.maximum((1 + shear) * q2, 1e-12)
     return math.sqrt(1 + shear) * float(np.min((np.sqrt(damping**2 + 4 * stiffness) - damping) / stiffness))

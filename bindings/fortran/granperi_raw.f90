@@ -70,8 +70,11 @@ module granperi_raw
             !! plate or another column (not with GP_DENSITY_NUMBER, nor with a time_step). The log says so and what it
             !! costs. Else at least 1e-9 [0]
         real(c_double) :: cfl
-            !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.8 or
-            !! of the schemes of [1] 0.2; else 1e-6 .. 2 [0]
+            !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.45
+            !! of what is stable with the horizon in use (horizon 2.5: 0.59, 3: 0.71, 4: 0.95, 6: 1.42), down to 0.38 of
+            !! it where the material moves by more than 0.06 dl in a step and where a blow is foreseen; of the schemes
+            !! of [1] 0.2. Else 1e-6 .. 8; beyond gp_state.dt_limit (at least 1.18, 1.44, 1.93, 2.88 by the default
+            !! coefficients, 1.0 in the schemes of [1]) it is refused at the first step, but see allow_unstable_step [0]
         real(c_double) :: time_step
             !! s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY. Beyond
             !! gp_state.dt_limit: refused at the first step, but see allow_unstable_step [0]
@@ -322,8 +325,10 @@ module granperi_raw
     integer(c_int32_t), parameter :: GP_DT_NONE = 0 !! no step taken yet
     integer(c_int32_t), parameter :: GP_DT_SOUND = 1
         !! elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the lighter is pushed
-        !! by the stiffness of the heavier (horizon 4: from a ratio of about 10 on)
-    integer(c_int32_t), parameter :: GP_DT_FLOW = 2 !! relative motion: a quarter spacing per step
+        !! by the stiffness of the heavier (from a ratio of 9 to 10 on)
+    integer(c_int32_t), parameter :: GP_DT_FLOW = 2
+        !! relative motion: of the scheme's own step .06 spacings, but not below .38 of what is stable; of any, a
+        !! quarter spacing per step
     integer(c_int32_t), parameter :: GP_DT_PLATE = 3 !! the inertia of a loaded plate
     integer(c_int32_t), parameter :: GP_DT_VISCOSITY = 4 !! bulk_viscosity, zero_energy_penalty or density_diffusion
     integer(c_int32_t), parameter :: GP_DT_DEMANDED = 5 !! gp_config.time_step
@@ -336,11 +341,12 @@ module granperi_raw
         real(c_double) :: time !! s
         integer(c_int64_t) :: step !! steps taken
         real(c_double) :: dt !! s, last time step
-        integer(c_int64_t) :: n_particles
+        integer(c_int64_t) :: n_particles !! how many there are
         integer(c_int64_t) :: n_awake
+            !! particles that take part in the work: all of them but for those that sleep (gp_config.sleep)
+        real(c_double) :: kinetic
             !! Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals kinetic +
             !! potential + elastic + dissipated + plate_work + energy_error.
-        real(c_double) :: kinetic
         real(c_double) :: potential
             !! gravitational, zero at the lowest face of the initial material. gp_set_gravity leaves it as it is: from
             !! there on it is less by what the new gravity has done, and may fall below 0
@@ -411,18 +417,50 @@ module granperi_raw
             !! that damp, not for the flow
         real(c_double) :: max_compression !! largest density over the material's own so far, less 1
         real(c_double) :: spacing_dissipated
+            !! J/m, the part that making the density follow the spacing of the particles took: below 0, it compresses
+            !! what flows
+        real(c_double) :: x_q01
             !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
             !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
             !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
             !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
             !! single grains set, they converge with the spacing. 0 without particles, as the next four
-        real(c_double) :: x_q01
         real(c_double) :: x_q05
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q25
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q50
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q75
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q95
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: x_q99
+            !! Marks of the mass, m: x_q05 has 5 % of the mass on its left, and so on, all of the material, detached
+            !! grains too. Each particle's mass is spread evenly over one spacing in x, so a column from 0 to L has its
+            !! marks at .01 L, .05 L, ...; where a mark falls into a gap it is the gap's middle. In a periodic scene
+            !! what reaches beyond an end of the period counts at the other. Unlike the fronts x_left and x_right, which
+            !! single grains set, they converge with the spacing. 0 without particles, as the next four
         real(c_double) :: centre_x !! m, centre of mass
         real(c_double) :: centre_y !! m, centre of mass
         real(c_double) :: detached
@@ -717,7 +755,11 @@ module granperi_raw
         end function
 
         !> Steps until the clock shows t_end (s) exactly; the last steps are shortened to land on it. t_end earlier than
-        !> the clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step.
+        !> the clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step. Looks on the way must not be
+        !> ends: each end is another run, in which single grains come to rest elsewhere. Frames of an output, and gp_run
+        !> to the same t_end again after a callback has stopped it, leave all steps as long as they are: int32_t
+        !> is_due(void *due, gp_sim *sim) { double time, dt; gp_get_clock(sim, &time, &dt, NULL); return time + 1e-9 *
+        !> dt >= *(double *)due; }
         function gp_run(sim, t_end) bind(c, name="gp_run") result(answer)
             import
             type(c_ptr), value :: sim

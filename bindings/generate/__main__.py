@@ -2,7 +2,8 @@
 
 usage: python3 bindings/generate [--check] [--cc CC] [--header GP_H]
 
-Writes bindings/python/granperi/_cdef.h (for CFFI), bindings/fortran/granperi_raw.f90 (the C interface in Fortran),
+Writes bindings/python/granperi/_cdef.h (for CFFI), _reference.py (the header's comments, for docstrings), _objects.pyi and
+_plate.pyi (for type checkers and editors) there, bindings/fortran/granperi_raw.f90 (the C interface in Fortran),
 bindings/fortran/granperi_types.f90 (constructors and views over it) and src/levels/calls.inc (for libraries that have the
 engine more than once). --check writes nothing and exits with 1, and a
 message, where a file is not what would be written.
@@ -19,10 +20,15 @@ from cdef import write_cdef
 from fortran_raw import write_raw
 from fortran_types import write_types
 from header import HeaderError, read_header
+from python_meanings import write_reference
+from python_stubs import write_objects, write_plate
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 TARGETS = {
     "bindings/python/granperi/_cdef.h": write_cdef,
+    "bindings/python/granperi/_reference.py": write_reference,
+    "bindings/python/granperi/_objects.pyi": write_objects,
+    "bindings/python/granperi/_plate.pyi": write_plate,
     "src/levels/calls.inc": write_calls,
     "bindings/fortran/granperi_raw.f90": write_raw,
     "bindings/fortran/granperi_types.f90": write_types,

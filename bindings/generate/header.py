@@ -260,7 +260,8 @@ class Parser:
         return Struct(name, fields, doc)
 
     def fields(self):
-        """One declaration, which may name several fields: the comment behind it belongs to each."""
+        """One declaration, which may name several fields: the comment behind it, or without one that before it, is each's."""
+        before = self.comments()
         kind, found = self.type(), []
         while True:
             name, length = self.word(), None
@@ -278,5 +279,14 @@ class Parser:
                 stars += 1
             kind = CType(kind.base, kind.const, stars)
         self.take(";")
-        doc = self.comments()
+        doc = self.comment_in_line() or before
         return [Field(field, of, length, doc) for field, of, length in found]
+
+    def comment_in_line(self):
+        """The comment that begins in the line of the token before; "" if there is none."""
+        kind, text, start = self.tokens[self.position]
+        before = self.tokens[self.position - 1]
+        if kind != "comment" or "\n" in self.text[before[2] + len(before[1]):start]:
+            return ""
+        self.position += 1
+        return self.words_of(text)

@@ -1,5 +1,6 @@
 /* What has to happen between two steps without the interpreter: the library calls this after every step, and Python
  * is only entered when there is something to do. So steps run without the GIL, and Ctrl-C stops after the present one. */
+#include <math.h>
 #include <signal.h>
 #include <string.h>
 #include <time.h>
@@ -10,6 +11,9 @@ typedef struct granperi_watch {
     double interval;
     double next;
     int32_t attention;
+    double due;
+    int32_t rest_every;
+    int32_t rested;
     int32_t interrupts;
     void *self;
 } granperi_watch;
@@ -62,12 +66,24 @@ static void granperi_end(int32_t interrupts) {
 
 /* -------------------------------------------------------------------------------------------------- steps */
 
-enum { GRANPERI_CALLBACK = 1, GRANPERI_LOOK = 2 };
+enum { GRANPERI_CALLBACK = 1, GRANPERI_LOOK = 2, GRANPERI_TIME = 4 };
+
+/* As the library does it for gp_output.every_seconds: a step that ends within rounding of the time has reached it. */
+static int granperi_has_reached(gp_sim *sim, double due) {
+    double time, dt;
+    return due < HUGE_VAL && gp_get_clock(sim, &time, &dt, NULL) >= 0 && time + 1e-9 * dt >= due;
+}
+
+/* Energies and rest alone cost 2 to 5 % of a step. */
+static int granperi_is_at_rest(gp_sim *sim) {
+    gp_state state;
+    state.struct_size = sizeof state;
+    return gp_get_state_parts(sim, 0, &state) >= 0 && state.at_rest;
+}
 
 static int32_t granperi_after_step(void *user, gp_sim *sim) {
     granperi_watch *watch = (granperi_watch *)user;
     int32_t due = 0;
-    (void)sim;
     ++watch->step;
     if (watch->every > 0 && watch->step % watch->every == 0)
         due |= GRANPERI_CALLBACK;
@@ -85,12 +101,16 @@ static int32_t granperi_after_step(void *user, gp_sim *sim) {
             due |= GRANPERI_LOOK;
         }
     }
+    if (granperi_has_reached(sim, watch->due))
+        due |= GRANPERI_TIME;
+    if (watch->rest_every > 0 && watch->step % watch->rest_every == 0)
+        watch->rested = granperi_is_at_rest(sim);
     if (!due)
-        return 0;
+        return watch->rested;
     watch->attention = 0;
     if (watch->interrupts)
         granperi_interrupted = 0;
-    return granperi_look(watch->self, due);
+    return granperi_look(watch->self, due) || watch->rested;
 }
 
 static gp_status granperi_attach(gp_sim *sim, granperi_watch *watch) {

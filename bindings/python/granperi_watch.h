@@ -4,6 +4,9 @@ typedef struct granperi_watch {
     double interval;    /* s of wall-clock time between looks (progress, signals without a C handler); 0: no looks */
     double next;        /* when the next look is due */
     int32_t attention;  /* 1: look after this step (the library has said something) */
+    double due;         /* s of simulated time: look after the first step at or past it; HUGE_VAL: never */
+    int32_t rest_every; /* > 0: after each step whose number is a multiple of it, stop if the material is at rest */
+    int32_t rested;     /* 1: that has stopped the run */
     int32_t interrupts; /* 1: this run is one that Ctrl-C stops */
     void *self;         /* handle of the Python object */
 } granperi_watch;

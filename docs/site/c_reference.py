@@ -1,8 +1,9 @@
-"""The reference of the C interface, one page per section of the header, from the header's own comments."""
+"""The reference of the C interface from the header's own comments: one page per section, and one per call."""
 import os
 import re
 import sys
 
+import c_calls
 import text
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bindings", "generate"))
@@ -55,6 +56,22 @@ def parameters_of(declaration):
     return ", ".join(declared(parameter.type, parameter.name) for parameter in declaration.parameters) or "void"
 
 
+UNIT = re.compile(r"^(m/s2|m/s|m|s|Pa s|Pa|kg/m3|kg/m2|kg/s|rad/s|rad|J/m|N/m|N s/m|N s|N|1/s|dl)(?=[,; ]|$)[,;]? ?")
+DEFAULT = re.compile(r" ?\[((?:[^][]|\[[^][]*\])*)\]$")
+
+
+def member_lines(doc, roles):
+    """What a member means, and below it its unit and default where the comment has them."""
+    words = " ".join(doc.split())
+    default, unit = DEFAULT.search(words), UNIT.match(words)
+    facts = ["*Unit:* %s." % unit.group(1)] if unit else []
+    if default:
+        words = words[:default.start()]
+        facts.append("*Default:* %s." % text.linked(default.group(1), roles))
+    words = UNIT.sub("", words) if unit else words
+    return [*([text.linked(words, roles), ""] if words else []), *([" ".join(facts), ""] if facts else [])]
+
+
 def of_struct(struct, roles):
     lines = [".. c:struct:: " + struct.name, "", *text.indented(text.paragraphs(struct.doc, roles)), ""]
     k = 0
@@ -64,7 +81,7 @@ def of_struct(struct, roles):
         same = struct.fields[k:k + len(same)] if struct.fields[k:k + len(same)] == same else [struct.fields[k]]
         signatures = [declared(field.type, field.name) + ("[%d]" % field.length if field.length else "") for field in same]
         member = [".. c:member:: " + signatures[0], *text.indented(signatures[1:], 14), ""]
-        member += text.indented([text.linked(" ".join(same[0].doc.split()), roles)]) + [""]
+        member += text.indented(member_lines(same[0].doc, roles)) + [""]
         lines += text.indented(member)
         k += len(same)
     return lines
@@ -81,19 +98,29 @@ def of_constants(constants, roles):
     return lines
 
 
-def of_function(function, roles, shared):
-    doc = text.paragraphs(function.doc, roles) if function.doc else ["See :c:func:`%s`." % shared]
+def of_function(function, roles, shared, callbacks):
+    """The page of a call. shared: the function whose comment it shares; callbacks: the types of functions that it may take."""
+    doc = text.paragraphs(shared.doc, roles)
+    for callback in callbacks:
+        if any(parameter.type.base == callback.name for parameter in function.parameters):
+            doc += ["", ":c:type:`%s`: %s" % (callback.name, text.linked(" ".join(callback.doc.split()), roles))]
     signature = "%s%s(%s)" % (c_type(function.result), function.name, parameters_of(function))
-    return [".. c:function:: " + signature.replace("  ", " "), "", *text.indented(doc), ""]
+    return [*text.titled(function.name), ".. c:function:: " + signature.replace("  ", " "), "", *text.indented(doc), "",
+            *c_calls.argument_table(function, roles), *c_calls.errors_of(function, shared.doc, roles),
+            *c_calls.example_lines(function), *c_calls.elsewhere(function)]
 
 
-def of_declaration(declaration, roles, shared):
+def first_sentence(doc):
+    """Of a comment, for the list of calls."""
+    words = " ".join(doc.split("\n\n")[0].split())
+    return re.split(r"(?<=[a-z0-9)*\]])[.;:] ", words)[0].rstrip(".") + "."
+
+
+def of_declaration(declaration, roles):
     if isinstance(declaration, Struct):
         return of_struct(declaration, roles)
     if isinstance(declaration, Constants):
         return of_constants(declaration, roles)
-    if isinstance(declaration, Function):
-        return of_function(declaration, roles, shared)
     doc = text.indented(text.paragraphs(declaration.doc, roles))
     if isinstance(declaration, Callback):
         signature = "%s(*%s)(%s)" % (c_type(declaration.result), declaration.name, parameters_of(declaration))
@@ -114,7 +141,7 @@ def write_c_reference(header_path, cc, directory):
     place = {id(declaration): re.search(r"\b%s\b" % name_of(declaration), code).start() for declaration in header.declarations}
     roles = roles_of(header)
     os.makedirs(directory)
-    pages = []
+    pages, functions = [], []
     for section, begin, end in [("version_numbers", 0, sections_of(source)[0][1]), *sections_of(source)]:
         of_it = [declaration for declaration in header.declarations if begin <= place[id(declaration)] < end]
         if section == "version_numbers":
@@ -122,7 +149,7 @@ def write_c_reference(header_path, cc, directory):
             continue
         if section == "version":
             of_it = numbers + of_it
-        lines, shared, last = text.titled(TITLES[section]), None, 0
+        lines, shared, last, calls = [], None, 0, []
         # A macro that stands for a function may have the name of a type.
         macros = re.findall(r"#define (gp_\w+)\(", code[begin:end])
         known = {name: role for name, role in roles.items() if name not in macros}
@@ -131,9 +158,19 @@ def write_c_reference(header_path, cc, directory):
                 alone = "\n\n" in code[last:place[id(declaration)]]
                 if not declaration.doc and (alone or shared is None):
                     raise ReferenceError_("%s has no comment in %s" % (declaration.name, header_path))
-                shared = declaration.name if declaration.doc else shared
+                shared = declaration if declaration.doc else shared
+                calls += ["   * - :doc:`%s`" % declaration.name, "     - " + text.linked(first_sentence(shared.doc), known)]
+                with open(os.path.join(directory, declaration.name + ".rst"), "w", encoding="utf-8") as page:
+                    page.write("\n".join(of_function(declaration, known, shared, header.of(Callback))))
+                functions.append(declaration.name)
+            else:
+                lines += of_declaration(declaration, known)
             last = place[id(declaration)]
-            lines += of_declaration(declaration, known, shared)
+        if calls:
+            names = [name for name in functions if "   * - :doc:`%s`" % name in calls]
+            lines = [".. list-table::", "   :widths: 30 70", "", *calls, "", ".. toctree::", "   :hidden:", "",
+                     *text.indented(names), "", *lines]
+        lines = text.titled(TITLES[section]) + lines
         pages.append(section)
         with open(os.path.join(directory, section + ".rst"), "w", encoding="utf-8") as page:
             page.write("\n".join(lines))

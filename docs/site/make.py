@@ -21,9 +21,10 @@ from fortran_reference import write_fortran_reference  # noqa: E402
 from python_reference import write_python_reference  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-REPORTS = ["validation", "stability", "performance", "settings", "hot-path", "trust", "abi"]
-EXAMPLES = {"c": (".c", ".h"), "fortran": (".f90",), "python": (".py",)}
+REPORTS = ["validation", "stability", "performance", "settings", "report", "hot-path", "trust", "abi"]
+EXAMPLES = {"c": (".c", ".h"), "fortran": (".f90",), "python": (".py", ".toml")}
 NEEDED = {"sphinx": "python3-sphinx", "myst_parser": "python3-myst-parser", "furo": "furo"}
+MATH_FONT = "/usr/share/texmf/fonts/opentype/public/lm-math/latinmodern-math.otf"  # fonts-lmodern
 LINK = re.compile(r"(!?)\[([^]]*)\]\(([^)#]*)(#[^)]*)?\)")
 
 
@@ -77,7 +78,8 @@ def stage_guide(source):
     guide = os.path.join(ROOT, "docs", "guide")
     front = staged("guide/README.md")
     with open(os.path.join(guide, "README.md"), encoding="utf-8") as page:
-        pages = [link for _, _, link, _ in LINK.findall(page.read()) if "/" not in link and link.endswith(".md")]
+        links = [link for _, _, link, _ in LINK.findall(page.read()) if "/" not in link and link.endswith(".md")]
+    pages = list(dict.fromkeys(links))
     there = {name for name in os.listdir(guide) if name.endswith(".md")} - {"README.md"}
     if set(pages) != there:
         raise PageError("docs/guide/README.md does not name: %s" % ", ".join(sorted(there - set(pages))))
@@ -101,9 +103,18 @@ def stage_examples(source):
                 code = program.read()
             pages.append("%s/%s" % (language, name))
             write(os.path.join(source, "examples", pages[-1] + ".md"),
-                  "# %s\n\n```%s\n%s```\n" % (pages[-1], language, code))
+                  "# %s\n\n```%s\n%s```\n" % (pages[-1], "toml" if name.endswith(".toml") else language, code))
     write(os.path.join(source, "examples", "index.md"),
           "# Example programs\n\n```{toctree}\n:maxdepth: 1\n\n%s\n```\n" % "\n".join(pages))
+
+
+def stage_style(static):
+    """The style, and a font for equations where the system has one: browsers stretch brackets and roots with its help only."""
+    shutil.copytree(os.path.join(ROOT, "docs", "site", "static"), static)
+    if os.path.exists(MATH_FONT):
+        shutil.copy(MATH_FONT, static)
+        with open(os.path.join(static, "granperi.css"), "a", encoding="utf-8") as style:
+            style.write('@font-face { font-family: "Latin Modern Math"; src: url("%s"); }\n' % os.path.basename(MATH_FONT))
 
 
 def stage(source, cc):
@@ -152,7 +163,7 @@ def main():
         print("skipped: these packages are not installed: %s (scripts/install-dependencies docs)" % ", ".join(absent))
         return 77
     source, html = os.path.join(arguments.output, "source"), os.path.join(arguments.output, "html")
-    for old in (source, html):
+    for old in (source, html, os.path.join(arguments.output, "doctrees")):  # what pages were before may be elsewhere now
         shutil.rmtree(old, ignore_errors=True)
     try:
         functions, names, bound = stage(source, arguments.cc)
@@ -160,7 +171,9 @@ def main():
         if type(error).__module__ == "builtins":
             raise
         sys.exit("docs/site: %s" % error)
-    shutil.copy(os.path.join(ROOT, "docs", "site", "conf.py"), source)
+    for name in ("conf.py", "mathml.py"):
+        shutil.copy(os.path.join(ROOT, "docs", "site", name), source)
+    stage_style(os.path.join(source, "static"))
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-n", "-b", "html",
                "-d", os.path.join(arguments.output, "doctrees"), source, html]
     if subprocess.run(command).returncode != 0:

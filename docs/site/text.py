@@ -29,7 +29,7 @@ def with_links(text, roles):
         if role:
             # An escaped blank ends the markup where a letter or a bracket follows.
             pieces += [escape(text[end:name.start()]), "\\ :%s:`%s`\\ " % (role, name.group(0))]
-            end = name.end()
+            end = name.end() + 2 * (role == "c:func" and text.startswith("()", name.end()))  # Sphinx writes them, too
     return "".join(pieces) + escape(text[end:])
 
 

@@ -137,8 +137,7 @@ int main(int argc, char **argv) {
     exact = exact_moment(&options, omega, &yield);
 
     h.from = options.end / 2;
-    CHECK(gp_set_callback(sim, 10, look, &h));
-    example_run(sim, &options);
+    example_run_and_look(sim, &options, 10, look, &h);
     moment = -(example_load(sim, 0).impulse_torque - h.impulse) / (example_state(sim).time - h.time);
     printf("moment              %.4f N, mean of the second half\n", moment);
     printf("exact_moment        %.4f N\n", exact);

@@ -94,8 +94,7 @@ int main(int argc, char **argv) {
     r.inner = radius * cos(pi / CORNERS) - spacing / 2;
     example_fill(sim, spacing, -radius, radius, -radius, radius, is_inside, &r);
 
-    CHECK(gp_set_callback(sim, 100, look, &r));
-    example_run(sim, &options);
+    example_run_and_look(sim, &options, 100, look, &r);
     state = example_state(sim);
     load = example_load(sim, 0);
     printf("turned              %.4f rad\n", load.angle);

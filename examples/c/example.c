@@ -245,13 +245,34 @@ static void print_summary(const gp_state *s, double rest_since, double cpu_secon
            cpu_seconds > 0 ? (double)s->n_particles * (double)s->step / cpu_seconds : 0);
 }
 
+typedef struct {
+    double due;    /* s: the run stops after the first step at or past it, which leaves the steps as long as they are */
+    int64_t every; /* steps between looks */
+    gp_callback look; /* of the example; or NULL */
+    void *user;
+} watch;
+
+static int32_t after_step(void *user, gp_sim *sim) {
+    const watch *w = user;
+    double time, dt;
+    int64_t step;
+    CHECK(gp_get_clock(sim, &time, &dt, &step));
+    if (w->look != NULL && step % w->every == 0)
+        w->look(w->user, sim);
+    return time + 1e-9 * dt >= w->due;
+}
+
 void example_run(gp_sim *sim, const example_options *options) {
+    example_run_and_look(sim, options, 1, NULL, NULL);
+}
+
+void example_run_and_look(gp_sim *sim, const example_options *options, int64_t every, gp_callback look, void *user) {
     const double interval = 0.01; /* s between frames, and between looks at the state */
     const int progress = isatty(STDERR_FILENO), file = strcmp(options->output, "none") != 0;
     const clock_t begin = clock(); /* the CPU time of all threads */
+    watch w = {0, every, look, user};
     double rest_since = 0;
     int was_at_rest = 0;
-    long k;
     gp_state state = example_state(sim);
     if (file) {
         gp_output output;
@@ -259,8 +280,10 @@ void example_run(gp_sim *sim, const example_options *options) {
         output.every_seconds = interval;
         CHECK(gp_output_open(sim, options->output, &output));
     }
-    for (k = 1; state.time < options->end; ++k) {
-        CHECK(gp_run(sim, fmin((double)k * interval, options->end)));
+    CHECK(gp_set_callback(sim, 1, after_step, &w));
+    while (state.time < options->end) {
+        w.due = interval * (floor((state.time + 1e-9 * state.dt) / interval) + 1);
+        CHECK(gp_run(sim, options->end));
         state = example_state(sim);
         if (state.at_rest && !was_at_rest)
             rest_since = state.time;
@@ -268,6 +291,7 @@ void example_run(gp_sim *sim, const example_options *options) {
         if (progress)
             print_progress(&state, options->end);
     }
+    CHECK(gp_set_callback(sim, 0, NULL, NULL));
     if (progress)
         fputc('\n', stderr);
     if (file)

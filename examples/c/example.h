@@ -70,4 +70,7 @@ gp_load example_load(gp_sim *sim, int32_t plate);
 /* Runs to options->end with a frame every 0.01 s and prints the summary: lines of "name value unit". */
 void example_run(gp_sim *sim, const example_options *options);
 
+/* The same with look(user, sim) after each `every`-th step; what it returns is not heeded. */
+void example_run_and_look(gp_sim *sim, const example_options *options, int64_t every, gp_callback look, void *user);
+
 #endif

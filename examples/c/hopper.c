@@ -98,8 +98,7 @@ int main(int argc, char **argv) {
     CHECK(gp_add_plate(sim, &ground, NULL));
     example_fill(sim, r.spacing, -width / 2, width / 2, 0, height, is_inside, &r);
 
-    CHECK(gp_set_callback(sim, 10, look, &r));
-    example_run(sim, &options);
+    example_run_and_look(sim, &options, 10, look, &r);
     printf("# time s, mass above the outlet kg/m\n");
     for (k = 0; k < r.n; k += 5)
         printf("%.3f %.4f\n", r.time[k], r.mass[k]);

@@ -104,8 +104,7 @@ program drum
     inner = radius*cos(pi/corners) - spacing/2
     call fill(sim, spacing, -radius, radius, -radius, radius, is_inside)
 
-    call sim%set_callback(100, look, r)
-    call run_example(sim, options)
+    call run_example(sim, options, 100, look, r)
     state = sim%state()
     load = sim%plate_load(0)
     call line("turned", load%angle, "rad")

@@ -1,6 +1,7 @@
 !> What the examples share: options, lifted gates, a run with frames, a summary.
 module example
     use, intrinsic :: iso_fortran_env, only: error_unit
+    use, intrinsic :: iso_c_binding, only: c_int64_t
     use granperi
     implicit none
     private
@@ -23,6 +24,13 @@ module example
         character(:), allocatable :: name, help
         real(gp_real) :: value = 0, low = 0, high = 0
         logical :: whole = .false.
+    end type
+
+    type :: watch
+        real(gp_real) :: due = 0 !! s: the run stops after the first step at or past it, which leaves the steps as long as they are
+        integer :: every = 1 !! steps between looks
+        procedure(gp_on_step), pointer, nopass :: look => null() !! of the example
+        class(*), pointer :: context => null()
     end type
 
     integer, parameter :: material_left = 0, material_right = 1
@@ -218,30 +226,56 @@ contains
     ! ----------------------------------------------------------------------------------------------- run
 
     !> Runs to options%end with a frame every 0.01 s and prints the summary: lines of "name value unit".
-    subroutine run_example(sim, options)
+    !> With look, that is called after each `every`-th step.
+    subroutine run_example(sim, options, every, look, context)
         type(gp_simulation), intent(inout) :: sim
         type(example_options), intent(in) :: options
+        integer, intent(in), optional :: every
+        procedure(gp_on_step), optional :: look
+        class(*), intent(in), target, optional :: context
         real(gp_real), parameter :: interval = 0.01_gp_real ! s between frames, and between looks at the state
         real(gp_real) :: begin, end, rest_since
+        type(watch), target :: w
         logical :: was_at_rest
-        integer :: k
+        integer :: status
         type(gp_state) :: state
         call cpu_time(begin)
         if (options%output /= "none") call sim%output_open(options%output, gp_output(every_seconds=interval))
         rest_since = 0
         was_at_rest = .false.
-        k = 0
         state = sim%state()
+        if (present(look)) w%look => look
+        if (present(every)) w%every = every
+        if (present(context)) w%context => context
+        call sim%set_callback(1, after_step, w)
         do while (state%time < options%end)
-            k = k + 1
-            call sim%run(min(k*interval, options%end))
+            w%due = interval*(floor((state%time + 1e-9_gp_real*state%dt)/interval) + 1)
+            call sim%run(options%end, status)
+            if (status < 0) error stop
             state = sim%state()
             if (state%at_rest == 1 .and. .not. was_at_rest) rest_since = state%time
             was_at_rest = state%at_rest == 1
         end do
+        call sim%remove_callback()
         if (options%output /= "none") call sim%output_close()
         call cpu_time(end)
         call print_summary(state, rest_since, end - begin)
+    end subroutine
+
+    subroutine after_step(sim, context, stop_run)
+        class(gp_simulation), intent(inout) :: sim
+        class(*), pointer, intent(inout) :: context
+        logical, intent(inout) :: stop_run
+        real(gp_real) :: time, dt
+        integer(c_int64_t) :: step
+        logical :: ignored
+        call sim%clock(time, dt, step)
+        select type (context)
+        type is (watch)
+            if (associated(context%look) .and. mod(step, int(context%every, c_int64_t)) == 0) &
+                call context%look(sim, context%context, ignored)
+            stop_run = time + 1e-9_gp_real*dt >= context%due
+        end select
     end subroutine
 
     subroutine print_summary(s, rest_since, cpu_seconds)

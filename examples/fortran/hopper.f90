@@ -101,8 +101,7 @@ program hopper
     call sim%add_plate(gp_plate(x0=1.0_gp_real, x1=-1.0_gp_real, y0=-0.3_gp_real, y1=-0.3_gp_real))
     call fill(sim, spacing, -width/2, width/2, 0.0_gp_real, height%value, is_inside)
 
-    call sim%set_callback(10, look, r)
-    call run_example(sim, options)
+    call run_example(sim, options, 10, look, r)
     print "(a)", "# time s, mass above the outlet kg/m"
     do k = 1, r%n, 5
         print "(f5.3, 1x, f8.4)", r%time(k), r%mass(k)

@@ -137,7 +137,11 @@ typedef struct gp_config {
                                     column (not with GP_DENSITY_NUMBER, nor with a time_step). The log says so and what it
                                     costs. Else at least 1e-9 [0] */
     double cfl;                  /* time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0;
-                                    0: the scheme's own, 0.8 or of the schemes of [1] 0.2; else 1e-6 .. 2 [0] */
+                                    0: the scheme's own, 0.45 of what is stable with the horizon in use (horizon 2.5: 0.59, 3: 0.71,
+                                    4: 0.95, 6: 1.42), down to 0.38 of it where the material moves by more than 0.06 dl in a
+                                    step and where a blow is foreseen; of the schemes of [1] 0.2. Else 1e-6 .. 8; beyond
+                                    gp_state.dt_limit (at least 1.18, 1.44, 1.93, 2.88 by the default coefficients, 1.0 in the schemes
+                                    of [1]) it is refused at the first step, but see allow_unstable_step [0] */
     double time_step;            /* s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY.
                                     Beyond gp_state.dt_limit: refused at the first step, but see allow_unstable_step [0] */
     double interaction_radius;   /* dl, support of the number density and of the paper's MPS operators; 1.5 .. 8 [4] */
@@ -390,7 +394,16 @@ GP_API gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
 GP_API gp_status gp_step(gp_sim *sim, int64_t n);
 
 /* Steps until the clock shows t_end (s) exactly; the last steps are shortened to land on it. t_end earlier than the
- * clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step. */
+ * clock is GP_E_ARGUMENT, equal to it does nothing. Otherwise as gp_step.
+ *
+ * Looks on the way must not be ends: each end is another run, in which single grains come to rest elsewhere. Frames of an
+ * output, and gp_run to the same t_end again after a callback has stopped it, leave all steps as long as they are:
+ *
+ *     int32_t is_due(void *due, gp_sim *sim) {
+ *         double time, dt;
+ *         gp_get_clock(sim, &time, &dt, NULL);
+ *         return time + 1e-9 * dt >= *(double *)due;
+ *     } */
 GP_API gp_status gp_run(gp_sim *sim, double t_end);
 
 /* Called after every `every`-th step in the thread that runs gp_step or gp_run; a non-zero return stops the run. */
@@ -476,8 +489,9 @@ GP_API gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t
 enum {
     GP_DT_NONE = 0,      /* no step taken yet */
     GP_DT_SOUND = 1,     /* elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the
-                            lighter is pushed by the stiffness of the heavier (horizon 4: from a ratio of about 10 on) */
-    GP_DT_FLOW = 2,      /* relative motion: a quarter spacing per step */
+                            lighter is pushed by the stiffness of the heavier (from a ratio of 9 to 10 on) */
+    GP_DT_FLOW = 2,      /* relative motion: of the scheme's own step .06 spacings, but not below .38 of what is stable; of
+                            any, a quarter spacing per step */
     GP_DT_PLATE = 3,     /* the inertia of a loaded plate */
     GP_DT_VISCOSITY = 4, /* bulk_viscosity, zero_energy_penalty or density_diffusion */
     GP_DT_DEMANDED = 5,  /* gp_config.time_step */
@@ -490,7 +504,7 @@ typedef struct gp_state {
     double time;          /* s */
     int64_t step;         /* steps taken */
     double dt;            /* s, last time step */
-    int64_t n_particles;
+    int64_t n_particles;  /* how many there are */
     int64_t n_awake;      /* particles that take part in the work: all of them but for those that sleep (gp_config.sleep) */
     /* Energy ledger, J per metre of depth: the initial kinetic + potential + elastic energy equals
      * kinetic + potential + elastic + dissipated + plate_work + energy_error. */

@@ -2,6 +2,18 @@
 // lose the velocity of their approach, each taking the share of the other's mass. Where a particle collides with several
 // at once, each pair's impulse is divided by the larger number of partners of the two: momentum is kept exactly and the
 // energy cannot grow.
+//
+// Where what flows is more crowded than its density knows, it has to come apart, not only to come no closer: there the part of
+// the approach that the mean flow explains, -r.L.r of the two gradients' mean, stays in the velocities, and the positions make up
+// for it: the pair moves apart as fast as that brings it together, about its centre of mass. Nothing else sees these moves -
+// continuity integrates the gradient of the velocities - so it is done by the share of the crowding that has come up, and stops
+// when there is room. What rests does not move, nor what is pressed together and dense for it.
+//
+// It keeps the volume of rows at free surfaces, which the tie of density and spacing does not see. Of a drum of 12 spacings in
+// radius, at a Froude number of 1e-4, the area under the surface over that of its particles, mean of .4 to .75 turns, is .902
+// without, and by full_crowding .05 1.002, .1 .983, .2 .967; by the whole moves everywhere 1.15. Collapses, inclined and sheared
+// layers do as without within their scatter. (All that the mean flow explains left to the velocities, crowded or not, lets
+// collapses at L/dl = 16 run 2 % and their fronts 5 % farther, but inclined layers sink by 1.5 % and pairs without stress overlap.)
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +27,8 @@ namespace gp::stages {
 
 namespace {
 
-constexpr double immovable = 1e100; // kg/m3
+constexpr double immovable = 1e100;   // kg/m3
+constexpr double full_crowding = 0.1; // of the lattice's number density: from here on all that is explained is moved
 
 struct View {
     Clusters clusters;
@@ -26,6 +39,9 @@ struct View {
     const uint8_t *asleep; // NULL where nothing sleeps
     uint8_t *colliding;
     double *du, *dv; // velocity changes
+    const double *pressure, *lxx, *lxy, *lyx, *lyy;
+    const float *crowded; // NULL: pairs are braked only
+    double *su, *sv;      // m/s, of moves without a velocity
 
     GP_INLINE double density(int64_t i) const {
         return constants->materials[constants->body_material[column[i]]].density;
@@ -64,8 +80,8 @@ int64_t count_partners(const View &v, int64_t begin, int64_t end) {
     return sum;
 }
 
-// The velocity changes of the particles that have partners.
-void find_pushes(const View &v, int64_t begin, int64_t end) {
+// The velocity changes, and moves, of the particles that have partners.
+template <bool Moves> void find_pushes(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     for (int64_t c = begin; c < end; ++c) {
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
@@ -82,7 +98,19 @@ void find_pushes(const View &v, int64_t begin, int64_t end) {
             partners[l] = v.colliding[places.at[l]];
         }
         const bool partly = v.clusters.is_partly_seen(c);
-        Lanes du{}, dv{};
+        Lanes du{}, dv{}, su{}, sv{};
+        Lanes pi{}, lxx{}, lyy{}, shear{}, crowded{};
+        double most_crowded = -1e300;
+        if (Moves) {
+            pi = places.load(v.pressure);
+            lxx = places.load(v.lxx);
+            lyy = places.load(v.lyy);
+            shear = places.load(v.lxy) + places.load(v.lyx);
+            for (int l = 0; l < lane_count; ++l) {
+                crowded[l] = v.crowded[places.at[l]];
+                most_crowded = std::max(most_crowded, crowded[l]);
+            }
+        }
         int32_t j = v.clusters.first[c];
         for (int64_t k = v.clusters.start[c], stop = v.clusters.stop(c); k < stop; ++k) {
             j += v.clusters.step[k];
@@ -93,16 +121,34 @@ void find_pushes(const View &v, int64_t begin, int64_t end) {
             const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
             const double other = v.partner_density(j), others = v.colliding[j];
             const Lanes most = choose(partners > others, partners, Lanes{} + others);
+            const auto collides = (approach > 0.0) & (r2 < v.distance2);
             // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
-            Lanes impulse =
-                where(approach > 0.0, where(r2 < v.distance2, approach * other / ((own + other) * most * r2)));
+            Lanes share = where(collides, other / ((own + other) * r2));
             if (partly)
-                impulse = v.clusters.seen(impulse, k);
+                share = v.clusters.seen(share, k);
+            Lanes random = approach;
+            if (Moves && v.crowded[j] + most_crowded > 0 && v.pressure[j] > 0 && !(v.asleep && v.asleep[j])) {
+                const Lanes mean = -0.5 * ((lxx + v.lxx[j]) * dx * dx + (shear + (v.lxy[j] + v.lyx[j])) * dx * dy +
+                                           (lyy + v.lyy[j]) * dy * dy);
+                const Lanes excess = (0.5 / full_crowding) * (crowded + v.crowded[j]), one = Lanes{} + 1.0;
+                const Lanes explained =
+                    where((mean > 0.0) & (pi > 0.0) & (excess > 0.0),
+                          choose(mean < approach, mean, approach) * choose(excess < one, excess, one));
+                const Lanes moves = share * explained;
+                su -= moves * dx;
+                sv -= moves * dy;
+                random -= explained;
+            }
+            const Lanes impulse = share * random / most;
             du -= impulse * dx;
             dv -= impulse * dy;
         }
         places.store(v.du, last, du);
         places.store(v.dv, last, dv);
+        if (Moves) {
+            places.store(v.su, last, su);
+            places.store(v.sv, last, sv);
+        }
     }
 }
 
@@ -113,7 +159,8 @@ void collide(World &world) {
     const double distance = world.scene->config().collision_distance * world.constants.spacing;
     const double dt = world.clock.dt;
     update_images(world);
-    // sigma K^-1 has done its work: its first row holds the velocity changes.
+    // sigma K^-1 has done its work: its first row holds the velocity changes, its second one the moves.
+    const bool moves = !world.crowded.empty();
     const View view{Clusters(world.clusters, world.clusters.close),
                     p.x.data(),
                     p.y.data(),
@@ -125,7 +172,15 @@ void collide(World &world) {
                     world.sleep.some ? p.asleep.data() : nullptr,
                     world.colliding.data(),
                     p.cxx.data(),
-                    p.cxy.data()};
+                    p.cxy.data(),
+                    p.pressure.data(),
+                    p.lxx.data(),
+                    p.lxy.data(),
+                    p.lyx.data(),
+                    p.lyy.data(),
+                    moves ? world.crowded.data() : nullptr,
+                    p.cyx.data(),
+                    p.cyy.data()};
     for_each_seen_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;
@@ -136,14 +191,24 @@ void collide(World &world) {
     if (colliding == 0 && !world.crossing) // where there are others, they may have some, and wait
         return;
 
-    world.images.copy(world.colliding);
+    // The pressure is that of the stress, which they have.
+    if (moves)
+        world.images.copy_collisions({&p.lxx, &p.lxy, &p.lyx, &p.lyy}, world.colliding, world.crowded);
+    else
+        world.images.copy(world.colliding);
 
-    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { find_pushes(view, begin, end); });
+    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) {
+        moves ? find_pushes<true>(view, begin, end) : find_pushes<false>(view, begin, end);
+    });
     for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         double loss = 0;
         for (int64_t i = begin; i < end; ++i) {
             if (world.colliding[i] == 0)
                 continue;
+            if (moves) {
+                p.x[i] += dt * p.cyx[i];
+                p.y[i] += dt * p.cyy[i];
+            }
             loss -= world.material_of(i).density * push_particle(p, i, p.cxx[i], p.cxy[i], dt);
         }
         world.sums[block].collision_loss = p.volume * loss;

@@ -95,8 +95,13 @@ void make_lists(World &world) {
     } else if (c.period) {
         world.images.make(world.particles, world.grid, c.period, 2 * radius);
     }
-    if (!world.colliding.empty() && (world.crossing || c.period))
-        world.colliding.resize(std::max<int64_t>(1, world.particles.count + world.images.count));
+    if (world.crossing || c.period) {
+        const int64_t size = std::max<int64_t>(1, world.particles.count + world.images.count);
+        if (!world.colliding.empty())
+            world.colliding.resize(size);
+        if (!world.crowded.empty())
+            world.crowded.resize(size);
+    }
     const Barriers &barriers = world.walls.barriers(world.particles, world.grid, radius, world.crossing);
     const auto find = [&] {
         find_clusters(world.particles, world.grid, world.images, radius, close, barriers, tolerance, world.threads,

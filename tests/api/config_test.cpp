@@ -33,7 +33,7 @@ const std::vector<Number> numbers = {
     {"gravity_x", &gp_config::gravity_x, {}, {0, 9.81, -9.81}},
     {"gravity_y", &gp_config::gravity_y, {}, {0, 9.81, -1.62}},
     {"sound_speed", &gp_config::sound_speed, {-1e-9, -10}, {0, 0.1, 340}},
-    {"cfl", &gp_config::cfl, {-0.1, 9e-7, 2.0001}, {0, 1e-6, 0.1, 2}},
+    {"cfl", &gp_config::cfl, {-0.1, 9e-7, 8.0001}, {0, 1e-6, 0.1, 8}},
     {"time_step", &gp_config::time_step, {-1e-9}, {0, 1e-9, 1}},
     {"interaction_radius", &gp_config::interaction_radius, {0, -4, 1.49, 8.01}, {1.5, 3.1, 8}},
     {"horizon", &gp_config::horizon, {0, -4, 1.79, 8.01}, {1.8, 3.1, 8}},

@@ -254,7 +254,7 @@ gp_config unstable_fluid_config() {
     gp_config config = make_config();
     Sim sim(config);
     add_fluid_collapse(sim, 30, 24);
-    config.time_step = 8 * sim.state().dt_limit;
+    config.time_step = 4 * sim.state().dt_limit;
     config.allow_unstable_step = 1;
     return config;
 }

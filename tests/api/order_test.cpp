@@ -84,7 +84,9 @@ TEST(Order, TheSceneIsFixedWhileAnOutputIsOpen) {
 // ----------------------------------------------------------------------------------------------- callbacks
 
 TEST(Callbacks, MayReadDriveAndWriteButNothingElse) {
-    Sim sim;
+    gp_config config = make_config();
+    config.cfl = 0.8; // its own would go with the speed of the gate
+    Sim sim(config);
     add_collapse(sim, 4, 4);
     sim.add(make_column(2, 2, 1, 0));
     const bool hdf5 = has("hdf5");

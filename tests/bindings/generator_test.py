@@ -30,6 +30,11 @@ enum { GP_A, GP_B = 5, GP_C, GP_D = GP_B - 7 };
 typedef struct gp_thing {
     uint32_t struct_size;
     double x, *y; /* both */
+    /* above its field */
+    double above;
+    double beside; /* in its line */
+    /* not of the field before */
+    double last;
     const double *a, b[3];
 } gp_thing;
 typedef struct gp_sim gp_sim;
@@ -61,6 +66,9 @@ def main():
     cc = parser.parse_args().cc
     header = read(WHOLE.replace("#define GP_API\n", ""), cc)
     cdef, raw = write_cdef(header), write_raw(header)
+    said = {field.name: field.doc for field in header.struct("gp_thing").fields}
+    expect(said["above"] == "above its field" and said["beside"] == "in its line" and said["last"] == "not of the field before",
+           "comments of fields:", said)
     for line in ("#define GP_BIT 8", "#define GP_BITS 24", "GP_A = 0", "GP_C = 6", "GP_D = -2", "double *y;",
                  "const double *a;", "const double b[3];", "typedef struct gp_sim gp_sim;",
                  "typedef void (*gp_told)(void *user, const char *text);", "const char *gp_text(void);",

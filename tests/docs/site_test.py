@@ -7,9 +7,11 @@ import unittest
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 sys.path.insert(0, os.path.join(ROOT, "docs", "site"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import c_reference  # noqa: E402
 import fortran_reference  # noqa: E402
 import make  # noqa: E402
+import pages_test  # noqa: E402
 import text  # noqa: E402
 
 HEADER = """/* sample: a sample.
@@ -49,6 +51,20 @@ class CReference(unittest.TestCase):
         self.assertIn("   Begins \\*sim, see \\ :c:func:`gp_begin`\\ .", pages)
         self.assertIn("- All is well.", pages)
 
+    def test_has_what_a_reader_of_a_call_looks_for(self):
+        _, pages = self.pages("/* Begins *sim. GP_E_IO if it cannot. */")
+        self.assertIn("   * - ``sim``", pages)
+        self.assertEqual(c_reference.member_lines("m/s, how fast; 0 .. 9 [0.5]", {}),
+                         ["how fast; 0 .. 9", "", "*Unit:* m/s. *Default:* 0.5.", ""])
+
+    def test_every_argument_of_the_header_is_described(self):
+        header = c_reference.read_header(os.path.join(ROOT, "include", "granperi", "gp.h"), ["cc"])
+        functions = header.of(c_reference.Function)
+        examples = [function.name for function in functions if c_reference.c_calls.example_of(function.name)]
+        for function in functions:
+            c_reference.c_calls.argument_table(function, {})
+        self.assertGreater(len(examples), 0.7 * len(functions), "too few calls have an example")
+
     def test_refuses_a_function_without_a_comment(self):
         with self.assertRaisesRegex(c_reference.ReferenceError_, "gp_begin has no comment"):
             self.pages("")
@@ -87,6 +103,26 @@ class Pages(unittest.TestCase):
         self.assertIsNone(make.target_of("validation.md", "../bench/README.md"))
         with self.assertRaisesRegex(make.PageError, "there is no nowhere.md"):
             make.target_of("guide/errors.md", "nowhere.md")
+
+    def test_faults_of_pages_are_told(self):
+        with tempfile.TemporaryDirectory() as html:
+            make.write(os.path.join(html, "one.html"), '<a href="two.html#there">two</a> <a href="three.html">three</a> <p id="here">'
+                                                       '<a href="#gone">gone</a> <img src="none.png"> see :c:func:`gp_run` '
+                                                       "<code>**this is code**</code></p>")
+            make.write(os.path.join(html, "two.html"), '<p id="there"><a href="one.html#here">one</a></p>')
+            faults = pages_test.faults_of(html, pages_test.read_pages(html))
+        self.assertEqual(len(faults), 4, faults)
+        for fault, text in zip(faults, ("three.html leads nowhere", "there is no #gone", "none.png is not there", "raw markup: ")):
+            self.assertIn(text, fault)
+
+    def test_equations_keep_the_numbers_of_their_sources(self):
+        class Writer:
+            body = []
+        import mathml
+        from docutils import nodes
+        with self.assertRaises(nodes.SkipNode):
+            mathml.visit_block(Writer, nodes.math_block("", r"I = \frac{2 d}{p} \tag{3.4}"))
+        self.assertRegex(Writer.body[0], r'(?s)<math .*<mfrac>.*</math><span class="number">\(3.4\)</span>')
 
     def test_lists_of_comments_are_lists(self):
         self.assertEqual(text.paragraphs("Two:\n  - one and\n    its end\n  - two\nThen a_b."),

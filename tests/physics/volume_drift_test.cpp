@@ -50,11 +50,13 @@ TEST(VolumeDrift, IsSmallWhereTheHeightIsKept) {
 }
 
 // Without density diffusion each density is its own, and what ties it to the spacing raises densities and lowers none: the layer
-// stands higher by some hundredths. The drift is that of the full horizons: not of the first rows below the free surface, which
-// open up most, so some .15 short of the height's (.14 to .16 over four seeds).
+// stands higher by some hundredths. The drift is that of the full horizons: of the rows at the surface and at the floor, which open
+// up most, it knows little. So it is less than the height's, .81 to .87 of it in means of twelve seeds from 1 to 1.75 s, with
+// steps of .8 and .95 dl / wave speed alike; of single runs it scatters by .07, of the mean of six by .03, and the bound is four of these.
 TEST(VolumeDrift, IsWhatALayerWithoutDiffusionGains) {
+    constexpr int runs = 6;
     double gained = 0, drift = 0;
-    for (const uint64_t seed : {1, 2, 3}) {
+    for (uint64_t seed = 1; seed <= runs; ++seed) {
         gp_config c = of_incline(0.2);
         c.density_diffusion = 0;
         c.seed = seed;
@@ -62,11 +64,12 @@ TEST(VolumeDrift, IsWhatALayerWithoutDiffusionGains) {
         const double height = layer.sim.state().centre_y;
         layer.sim.run(1.5);
         const gp_state s = layer.sim.state();
-        gained += (1 - height / s.centre_y) / 3;
-        drift += s.volume_drift / 3;
+        gained += (1 - height / s.centre_y) / runs;
+        drift += s.volume_drift / runs;
     }
     EXPECT_GT(gained, 0.02);
-    EXPECT_NEAR(drift, -gained, 0.2 * gained);
+    EXPECT_LT(-drift, gained);
+    EXPECT_GT(-drift, 0.7 * gained);
 }
 
 // A soft layer that a lid with a load shears and compresses by some 6 %: what it loses, its density knows.

@@ -18,6 +18,18 @@ TEST(Kernel, HasTheLatticeSumsOfTheMethod) {
     EXPECT_EQ(weight(0.0, 1.0), 1);
 }
 
+// The half plane below a row, the row among it: what it lacks to N0, and its first moment; R = 1.5: one row of three below it.
+TEST(Kernel, KnowsTheRowAtAFreeSurface) {
+    const double straight = weight(1, 1 / 1.5), across = weight(std::sqrt(2.0), 1 / 1.5);
+    EXPECT_NEAR(lattice_sums(1.5, 1).surface_lack, straight + 2 * across, 1e-15);
+    EXPECT_NEAR(lattice_sums(1.5, 1).surface_moment, straight + 2 * across, 1e-15);
+    for (const double horizon : {2.5, 4.0}) {
+        const LatticeSums sums = lattice_sums(horizon, 1);
+        EXPECT_NEAR(2 * sums.surface_lack + sums.row, sums.number_density, 1e-14);
+        EXPECT_NEAR(lattice_sums(0.1 * horizon, 0.1).surface_moment, 0.1 * sums.surface_moment, 1e-14);
+    }
+}
+
 namespace {
 
 const double d = 0.002, rho_s = 2500, i0 = 0.3;

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import gc
 import logging
+import math
 import os
 import sys
 import threading
@@ -12,6 +13,8 @@ from typing import Any, Callable
 
 from ._errors import GranperiWarning, StateError, check
 from ._library import ffi, lib, text_of
+from ._state import read_clock
+from ._timer import Timer
 
 log = logging.getLogger("granperi")
 
@@ -78,6 +81,8 @@ class Engine:
         self.output_pid = 0  # of the process that has opened an output
         self.callback: Callable[[Any], Any] | None = None
         self.on_look: Callable[[], None] | None = None
+        self.timers: list[Timer] = []
+        self.stopped = False  # by the callback: the run that has just ended
         self.failure: BaseException | None = None
         self.messages: list[tuple[int, str]] = []
         self.owner: Callable[[], Any] = lambda: None  # weak reference to the Simulation
@@ -88,6 +93,7 @@ class Engine:
         self._hook, self._handle = hook, ffi.new_handle(hook)
         self.watch = ffi.new("granperi_watch *")
         self.watch.self = self._handle
+        self.watch.due = math.inf
         check(lib.granperi_attach(sim, self.watch))
 
     def __del__(self):
@@ -113,6 +119,11 @@ class Engine:
     def epoch(self) -> int:
         check(lib.gp_get_particles(self.sim, 0, self._particles))
         return self._particles.epoch
+
+    def reached(self) -> float:
+        """The clock [s]. A step that ends within rounding of a time has reached it."""
+        clock = read_clock(self.sim)
+        return clock.time + 1e-9 * clock.dt
 
     def count(self) -> int:
         check(lib.gp_get_particles(self.sim, 0, self._particles))
@@ -142,8 +153,12 @@ class Engine:
         # In the main thread Python's signal handlers run: Ctrl-C and others stop the run.
         main = threading.get_ident() == _main_thread
         watch.interval = _LOOK if main or self.on_look else 0.0
+        self.stopped = False
+        watch.rested = 0
         self.running += 1
         try:
+            if self.timers:
+                self.ring()
             status = call(self.sim, watch, amount, main)
             if status < 0 and self.failure is None:
                 check(status)
@@ -164,17 +179,25 @@ class Engine:
 
     # ---------------------------------------------------------------------------------------------- call-backs
 
+    def ring(self) -> bool:
+        """Calls the timers that are due, and has the next one looked for. True if one of them stops the run."""
+        reached, stop = self.reached(), False
+        for timer in self.timers:
+            stop = timer.ring(reached) or stop
+        self.watch.due = min((timer.due for timer in self.timers), default=math.inf)
+        return stop
+
     def look(self, due: int) -> int:
         """What is due between two steps. A non-zero return stops the run."""
         self.deliver()
-        stop = False
+        stop = due & 4 and self.ring()
         if due & 1 and self.callback is not None:
-            stop = bool(self.callback(self.owner()))
+            self.stopped = bool(self.callback(self.owner()))
             if self.exports:
                 self.before_change("the callback has returned, but")
         if due & 2 and self.on_look is not None:
             self.on_look()
-        return int(stop)
+        return int(stop or self.stopped)
 
     def fail(self, error: BaseException) -> None:
         """Keeps what a callback has raised until the library has returned."""

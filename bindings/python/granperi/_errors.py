@@ -111,6 +111,8 @@ def number(name: str, value) -> float:
     """value as a float; text and arrays are refused, the range is the library's business."""
     if isinstance(value, (str, bytes)):
         raise ArgumentTypeError(f"{name} = {value!r}: expected a number")
+    if type(value) not in (float, int):
+        refuse_masked(name, value)
     try:
         return float(value)
     except (TypeError, ValueError):
@@ -119,10 +121,23 @@ def number(name: str, value) -> float:
         raise ArgumentError(f"{name} = {value!r}: expected a finite number") from None
 
 
+def refuse_masked(name: str, value) -> None:
+    """The error on values that a mask says are none; what a mask leaves all of is an array like others."""
+    import numpy as np
+
+    masked = value is np.ma.masked or isinstance(value, np.ma.MaskedArray) and bool(np.ma.getmaskarray(value).any())
+    if not masked and isinstance(value, (list, tuple)):
+        masked = any(item is np.ma.masked for item in value)
+    if masked:
+        raise ArgumentError(f"{name}: has masked values, which the library has no place for: leave them out "
+                            "(array[~array.mask]; of every array beside it the same ones), or fill them (array.filled(...))")
+
+
 def doubles(name: str, value, length: int | None = None):
     """value as a contiguous array of float64 of shape (n)."""
     import numpy as np
 
+    refuse_masked(name, value)
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "fiub" and array.size:

@@ -7,14 +7,22 @@ except ImportError as error:
     if "libgranperi" in str(error):
         what = ("the C library granperi was not found. Install it (cmake --install build, then sudo ldconfig), or name the "
                 "directory of libgranperi.so.0 in LD_LIBRARY_PATH")
+    elif "_cffi_backend" in str(error):
+        what = "cffi was not found. Install it: pip install cffi, on Debian python3-cffi"
     else:
-        what = ("the extension module granperi._granperi is missing. Build it: pip install --no-build-isolation --no-index "
-                "bindings/python, or cmake -DGRANPERI_BUILD_PYTHON=ON and PYTHONPATH=build/python")
+        what = ("the extension module granperi._granperi is missing. Build it: pip install . in the root of the sources, or "
+                "cmake -DGRANPERI_BUILD_PYTHON=ON and PYTHONPATH=build/python")
     raise ImportError(f"granperi: {what} ({error})", name=error.name, path=error.path) from error
 
-__all__ = ["ffi", "lib", "text_of"]
+__all__ = ["ffi", "has_feature", "lib", "text_of"]
 
 
 def text_of(pointer) -> str:
     """A C string as str; the library's texts are UTF-8 (paths in them may not be)."""
     return ffi.string(pointer).decode("utf-8", "replace")
+
+
+def has_feature(name: str) -> bool:
+    """Whether the library was built with "hdf5" or "openmp", or runs with the instructions of "x86-64-v3" (AVX2), "x86-64" and so on
+    (gp_has_feature has them all); False for other names."""
+    return isinstance(name, str) and bool(lib.gp_has_feature(name.encode("utf-8", "replace").replace(b"\0", b"?")))

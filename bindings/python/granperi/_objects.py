@@ -4,7 +4,9 @@ from __future__ import annotations
 import copy
 import enum
 import inspect
+import itertools
 import keyword
+import textwrap
 from typing import Any, Iterator
 
 import numpy as np
@@ -12,6 +14,8 @@ import numpy as np
 from ._enums import Density, InitialPressure, Preset, Stress, choice
 from ._errors import ArgumentTypeError, check, doubles, near_match, number, pointer, whole
 from ._library import ffi, lib
+from ._reference import MEANINGS
+from ._tables import as_html
 
 
 class Parameters:
@@ -102,6 +106,11 @@ class Parameters:
                  if isinstance(value, np.ndarray) or value != defaults[name] or name == "preset" and value]
         return f"{type(self).__name__}({', '.join(shown)})"
 
+    def _repr_html_(self) -> str:
+        defaults = self._own_defaults()
+        return as_html((type(self).__name__, "value", "default"),
+                       [(name, _plain(getattr(self, name)), _plain(defaults[name])) for name, _ in self])
+
     def __getstate__(self) -> dict[str, Any]:
         return copy.deepcopy(self._values)
 
@@ -161,6 +170,11 @@ def _shown(value: Any) -> str:
     return repr(value.name.lower()) if isinstance(value, enum.Enum) else repr(value)
 
 
+def _plain(value: Any) -> Any:
+    """For tables: numbers as they are, the rest as its repr has it."""
+    return value if isinstance(value, (int, float)) and not isinstance(value, enum.Enum) else "" if value is None else _shown(value)
+
+
 def _types(struct: str) -> dict:
     return dict(ffi.typeof(struct).fields)
 
@@ -184,93 +198,53 @@ def _defaults_of(cls, *more) -> dict[str, Any]:
     return _cache[key]
 
 
+def described(struct: str, head: str) -> str:
+    """A docstring: its head, and each parameter or value of the struct with type and meaning."""
+    lines = [inspect.cleandoc(head), ""]
+    for (kind, meaning), same in itertools.groupby(MEANINGS[struct].items(), lambda item: item[1]):
+        lines.append(f"{', '.join(name for name, _ in same)}: {kind}")
+        lines += textwrap.wrap(meaning, 100, initial_indent="    ", subsequent_indent="    ")
+    if any("[1]" in meaning or "[4]" in meaning for _, meaning in MEANINGS[struct].values()):
+        lines += ["", "[1] Jin, Lu, Tai & Xu (2021), J. Fluid Mech. 917; [4] Henann & Kamrin (2013), Proc. Natl. Acad. Sci. USA 110."]
+    return "\n".join(lines)
+
+
 def _signed(cls):
-    """Shows the parameters and their defaults in help() and in the hints of editors."""
+    """Shows the parameters, their defaults and meanings in help() and in the hints of editors."""
+    kinds = {name: kind for name, (kind, _) in MEANINGS[cls._struct].items()}
+    cls.__annotations__ = {name: kinds[name] for name in cls._defaults()}
     parameters = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=value,
-                                    annotation=cls.__annotations__.get(name, inspect.Parameter.empty))
+                                    annotation=kinds.get(name, inspect.Parameter.empty))
                   for name, value in [*cls._defaults().items(), *((also, None) for also in cls._also)]]
     cls.__signature__ = inspect.Signature(parameters)
+    cls.__doc__ = described(cls._struct, cls.__doc__)
     return cls
 
 
 @_signed
 class Material(Parameters):
-    """A granular material; the default is glass beads.
-
-    grain_density [kg/m3], volume_fraction, grain_diameter [m], mu_s (friction at I = 0), mu_2 (at large I), i0, k0 (side stress
-    over vertical stress with which columns begin; 0: isotropic). nonlocal_amplitude is A of the granular fluidity (0: the local
-    law; glass beads 0.48), fluidity_time [s] the time in which it follows; take a spacing of at most half a grain with it.
-    """
+    """A granular material; the default is glass beads."""
 
     _struct = "gp_material"
-    grain_density: float
-    volume_fraction: float
-    grain_diameter: float
-    mu_s: float
-    mu_2: float
-    i0: float
-    nonlocal_amplitude: float
-    fluidity_time: float
-    k0: float
 
 
 @_signed
 class Column(Parameters):
-    """A rectangle of particles: x_min, y_min, width, height [m], material, vx, vy [m/s], initial_pressure."""
+    """A rectangle of particles."""
 
     _struct = "gp_column"
     _enums = {"initial_pressure": InitialPressure}
-    x_min: float
-    y_min: float
-    width: float
-    height: float
-    material: int
-    vx: float
-    vy: float
-    initial_pressure: InitialPressure
 
 
 @_signed
 class Config(Parameters):
-    """The parameters of a simulation, in SI units; lengths named so are in spacings (dl). help(Config) has all defaults.
+    """The parameters of a simulation, in SI units; lengths in dl are in spacings. The defaults follow from the preset.
 
-    preset: "default", "paper" or "paper_local"; the other defaults follow from it. The meaning and the range of each
-    is written at gp_config in gp.h and in the reference.
+    Each with its unit, meaning, range and [default]:
     """
 
     _struct = "gp_config"
     _enums = {"preset": Preset, "stress": Stress, "density": Density}
-    spacing: float
-    gravity_x: float
-    gravity_y: float
-    sound_speed: float
-    cfl: float
-    time_step: float
-    interaction_radius: float
-    horizon: float
-    horizon_length: float
-    nonlocal_: int
-    stress: Stress
-    density: Density
-    friction_factor: float
-    delta: float
-    collision_distance: float
-    zero_energy_penalty: float
-    density_diffusion: float
-    channel_width: float
-    channel_friction: float
-    periodic_x_min: float
-    periodic_x_max: float
-    threads: int
-    seed: int
-    jitter: float
-    preset: Preset
-    bulk_viscosity: float
-    implicit_tolerance: float
-    implicit_iterations: int
-    allow_unstable_step: int
-    retry_halvings: int
-    sleep: int
 
     def __init__(self, preset: "int | str | Preset" = Preset.DEFAULT, **values: Any):
         chosen = choice(Preset, "gp_config.preset", preset)

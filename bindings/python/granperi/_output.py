@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Iterable, Iterator
 
 from ._engine import Engine
 from ._enums import field_bits, field_names
 from ._errors import StateError, UnsupportedError, check, number, path_bytes, whole
 from ._library import ffi, lib
 from ._objects import _initialised
+from ._state import State
 
 if TYPE_CHECKING:
     from ._simulation import Simulation
@@ -48,6 +49,12 @@ class Output:
             if self.closed:
                 raise StateError(f"write: the output {self.path} is closed: write before, or open another one")
             check(lib.gp_output_write(engine.sim))
+
+    def write_each(self, states: Iterable[State]) -> Iterator[State]:
+        """Each state of Simulation.frames(), once its frame is written."""
+        for state in states:
+            self.write()
+            yield state
 
     def close(self) -> None:
         """Closes the file. Closing it twice does no harm."""

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ._enums import Fluidity, Wall
-from ._errors import ArgumentError, ArgumentTypeError, doubles, number
+from ._errors import ArgumentError, ArgumentTypeError, doubles, number, refuse_masked
 from ._objects import Parameters, _signed
 
 
@@ -15,51 +15,25 @@ from ._objects import Parameters, _signed
 class Plate(Parameters):
     """A floor, wall, gate, lid, or a line of any shape: a rigid body whose surface the material touches.
 
-    Its line goes from (x0, y0) to (x1, y1) [m], or through point_x, point_y [m] (shape (n), x0 to y1 then 0), which
-    points (shape (n, 2)) sets at once; the material is on the right of that way. If the last point is the first, the line
-    is closed: clockwise it holds material (a drum), counter-clockwise it is an obstacle. floor, wall, gate and line make the
-    usual ones, turned the right way.
+    Its line goes from (x0, y0) to (x1, y1), or through point_x, point_y, which points (shape (n, 2)) sets at once. floor,
+    wall, gate and line make the usual ones, turned the right way. What the library refuses is an ArgumentError that names
+    the parameter, and the point.
 
-    friction: "no_slip" (the default), "free_slip" or "coulomb" (then wall_mu >= 0). fluidity, of materials
-    with nonlocal_amplitude: "free" (the default), or "zero" if the plate holds the grains in front of it.
+    It is at rest, or moves at vx, vy and turns at omega about its pivot; or by the table knot_t, knot_x, knot_y, knot_angle
+    (displacements and turn since the start; knot_angle, or knot_x and knot_y, may be left out), or as the host says
+    (Simulation.set_plate_motion), or under normal_pressure. The lengths n_points and n_knots are those of the arrays.
 
-    It is at rest, or moves at vx, vy [m/s] and turns at omega [rad/s, counter-clockwise] about pivot_x, pivot_y [m], which
-    moves along; or by the table knot_t [s], knot_x, knot_y [m], knot_angle [rad] (shape (n), displacements and turn since
-    the start; knot_angle, or knot_x and knot_y, may be left out), or as the host says (Simulation.set_plate_motion), or under
-    normal_pressure [Pa] with mass_per_length [kg/m2]. surface_velocity [m/s], along the line, is that of a belt: the
-    plate stays where it is. All of these are 0 or None as long as nothing is said; what the library refuses is an
-    ArgumentError that names the parameter, and the point.
+    Each parameter with its unit, meaning, range and [default]:
     """
 
     _struct = "gp_plate"
     _enums = {"friction": Wall, "fluidity": Fluidity}
     _tables = {"n_knots": ("knot_t", "knot_x", "knot_y", "knot_angle"), "n_points": ("point_x", "point_y")}
     _also = ("points",)
-    x0: float
-    y0: float
-    x1: float
-    y1: float
-    friction: Wall
-    wall_mu: float
-    vx: float
-    vy: float
-    knot_t: np.ndarray | None
-    knot_x: np.ndarray | None
-    knot_y: np.ndarray | None
-    normal_pressure: float
-    mass_per_length: float
-    point_x: np.ndarray | None
-    point_y: np.ndarray | None
-    pivot_x: float
-    pivot_y: float
-    omega: float
-    knot_angle: np.ndarray | None
-    surface_velocity: float
-    fluidity: Fluidity
 
     def _set(self, name: str, value: Any) -> None:
         if name == "points":
-            x, y = (None, None) if value is None else _columns("gp_plate.points", value)
+            x, y = (None, None) if value is None else points_of("gp_plate.points", value)
             super()._set("point_x", x)
             super()._set("point_y", y)
         else:
@@ -144,7 +118,7 @@ class Plate(Parameters):
         the left), of a closed line "inside" or "outside". The plate's own way has it on its right, so it may be the other
         one round: surface_velocity goes by the plate's.
         """
-        x, y = _columns("points", points)
+        x, y = points_of("points", points)
         if closed and len(x) and (x[0] != x[-1] or y[0] != y[-1]):
             x, y = np.append(x, x[0]), np.append(y, y[0])
         if _turned_round(x, y, material):
@@ -166,7 +140,9 @@ def _turned_round(x: np.ndarray, y: np.ndarray, material: str) -> bool:
     return bool(area > 0) == (material == "inside")
 
 
-def _columns(name: str, points: Any) -> tuple[np.ndarray, np.ndarray]:
+def points_of(name: str, points: Any) -> tuple[np.ndarray, np.ndarray]:
+    """x and y of points of the shape (n, 2), or the error on what is none."""
+    refuse_masked(name, points)
     try:
         array = np.asarray(points)
     except ValueError:  # rows of different lengths

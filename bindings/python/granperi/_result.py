@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
+from ._derived import DERIVED, derived
 from ._enums import FIELD_NAMES, StepLimit
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
-from ._objects import Material
 from ._plate import Plate
 from ._simulation import Simulation
 from ._state import MARKS, History, State
+from ._tables import as_html
 
 if TYPE_CHECKING:
     import h5py
 
 _VECTORS = {"x": ("position", 0), "y": ("position", 1), "vx": ("velocity", 0), "vy": ("velocity", 1)}
-DERIVED = ("speed", "shear_stress", "yielded")
 
 
 class Snapshot:
@@ -30,14 +30,8 @@ class Snapshot:
 
     def field(self, name: str) -> np.ndarray:
         """A field of shape (n), or what follows from fields: "speed" [m/s], "shear_stress" [Pa], "yielded" (bool)."""
-        if name == "speed":
-            return np.hypot(self._read("vx"), self._read("vy"))
-        if name == "shear_stress":
-            return np.sqrt((self._read("sxx") ** 2 + self._read("syy") ** 2) / 2 + self._read("sxy") ** 2)
-        if name == "yielded":
-            friction = np.array([material.mu_s for material in self._materials()]) * self._friction_factor()
-            strength = friction[self._material_of_column()[self._read("column")]] * self._read("pressure")
-            return self.field("shear_stress") >= 0.999 * strength
+        if name in DERIVED:
+            return derived(name, self._read, self._friction_of_columns)
         if name not in FIELD_NAMES:
             raise ArgumentError(f"field {name!r} does not exist: {near_match(name, [*DERIVED, *FIELD_NAMES])}")
         return self._read(name)
@@ -59,13 +53,7 @@ class Snapshot:
         """A simulation of these particles, which the library is asked for fronts, surface and interface."""
         raise NotImplementedError
 
-    def _materials(self) -> "list[Material] | tuple[Material, ...]":
-        raise NotImplementedError
-
-    def _material_of_column(self) -> np.ndarray:
-        raise NotImplementedError
-
-    def _friction_factor(self) -> float:
+    def _friction_of_columns(self) -> np.ndarray:
         raise NotImplementedError
 
     def plate_lines(self) -> list[np.ndarray]:
@@ -102,14 +90,8 @@ class LiveSnapshot(Snapshot):
     def _shape(self) -> Simulation:
         return self._sim
 
-    def _materials(self):
-        return self._sim.materials
-
-    def _material_of_column(self) -> np.ndarray:
-        return np.array([column if isinstance(column, int) else column.material for column in self._sim._columns])
-
-    def _friction_factor(self) -> float:
-        return self._sim.config.friction_factor
+    def _friction_of_columns(self) -> np.ndarray:
+        return self._sim._friction_of_columns()
 
     def plate_lines(self) -> list[np.ndarray]:
         loads = [self._sim.plate_load(k) for k in range(len(self._sim._plates))]
@@ -143,14 +125,9 @@ class FileSnapshot(Snapshot):
             self._sim = sim
         return self._sim
 
-    def _materials(self) -> list[Material]:
-        return [Material(**values) for values in self._result.scene["materials"]]
-
-    def _material_of_column(self) -> np.ndarray:
-        return np.array(self._result.scene["columns"])
-
-    def _friction_factor(self) -> float:
-        return self._result.friction_factor
+    def _friction_of_columns(self) -> np.ndarray:
+        friction = np.array([values["mu_s"] for values in self._result.scene["materials"]]) * self._result.friction_factor
+        return friction[self._result.scene["columns"]]
 
     def plate_lines(self) -> list[np.ndarray]:
         return self._result._plate_lines(self._frame)
@@ -175,7 +152,7 @@ class Result:
         try:
             self._file: "h5py.File | None" = h5py.File(self.path, "r")
         except OSError as error:
-            raise FileError(f"{self.path}: cannot be read as an HDF5 file: {error}") from None
+            raise FileError(f"{self.path}: {_why_unreadable(self.path, error)}") from None
         try:
             self._particles = self._file["particles/all"]
             self.times: np.ndarray = self._particles["position/time"][()]
@@ -184,9 +161,11 @@ class Result:
             self.sound_speed = float(attributes["sound_speed"])
             self.friction_factor = float(attributes["friction_factor"])
             self.scene: dict[str, Any] = json.loads(self._file["parameters/scene"][()])
-        except KeyError as error:
+        except (KeyError, ValueError, TypeError, AttributeError) as error:
+            what = _what_else(self._file)
             self._file.close()
-            raise FileError(f"{self.path}: is no result file of granperi: {error.args[0]}") from None
+            raise FileError(f"{self.path}: is no result file of granperi but {what}: expected a file that sim.record(), "
+                            f"sim.output(), gp_output_open or python -m granperi run has written ({error})") from None
 
     @functools.cached_property
     def _plates(self) -> list[Plate]:
@@ -210,7 +189,10 @@ class Result:
         try:
             return FileSnapshot(self, range(len(self))[frame])
         except IndexError:
-            raise IndexError(f"frame {frame}: {self.path} has {len(self)} frames") from None
+            if not len(self):
+                raise FrameError(f"{self.path} has no frames: the run that wrote it has ended before the first one; run it anew") \
+                    from None
+            raise FrameError(f"frame {frame}: {self.path} has {len(self)} frames") from None
         except TypeError:
             raise ArgumentTypeError(f"frame = {frame!r}: expected the number of a frame") from None
 
@@ -220,7 +202,7 @@ class Result:
     def at(self, time: float) -> FileSnapshot:
         """The frame nearest to this time [s]; an error if there is none within the usual distance of two frames."""
         if not len(self):
-            raise ArgumentError(f"{self.path} has no frames")
+            return self[0]  # which says why there is none
         frame = int(np.argmin(np.abs(self.times - time)))
         usual = np.median(np.diff(self.times)) if len(self) > 1 else 0.0
         if not abs(self.times[frame] - time) <= usual + 1e-9:
@@ -252,6 +234,21 @@ class Result:
         """The states at the frames. What differs from run to run, wall_seconds, is not in the file: NaN."""
         return History(self._state(frame) for frame in range(len(self)))
 
+    def universe(self) -> Any:
+        """An MDAnalysis.Universe of the particles and all frames, in m, m/s and s; resid is the column. It reads from this file
+        as long as that is open.
+
+            u = granperi.Result("collapse.h5").universe()
+            for at in u.trajectory:
+                print(at.time, u.select_atoms("prop y > 0.03").n_atoms)
+        """
+        try:
+            from ._mdanalysis import universe
+        except ImportError:
+            raise ImportError("Universe is of MDAnalysis (Debian: python3-mdanalysis)") from None
+        self._open()
+        return universe(self)
+
     def _plate_lines(self, frame: int) -> list[np.ndarray]:
         file = self._open()
         if "walls" not in file:  # of 0.1: no more than the scene is known
@@ -268,6 +265,12 @@ class Result:
         values = self._open()["observables/state/value"]
         return _state_of(dict(zip((name.decode() for name in values.attrs["names"]), values[frame])))
 
+    def _repr_html_(self) -> str:
+        rows = [("frames", len(self)), *((("from", f"{self.times[0]:g} s"), ("to", f"{self.times[-1]:g} s")) if len(self) else ()),
+                ("particles", len(self[0].x) if len(self) else 0), ("spacing", f"{self.spacing:g} m"),
+                ("fields", ", ".join(self.fields))]
+        return as_html((self.path, ""), rows)
+
     def __repr__(self) -> str:
         return f"<granperi.Result {self.path}: {len(self)} frames>"
 
@@ -283,6 +286,36 @@ _KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(
 def _state_of(values: dict[str, Any]) -> State:
     kinds = {name: _KINDS.get(name, float if State.__annotations__[name] == "float" else int) for name in values}
     return State(**{**_ABSENT, **{name: kinds[name](value) for name, value in values.items()}})
+
+
+class FrameError(ArgumentError, IndexError):
+    """A result file without the frame that is asked for."""
+
+
+def _why_unreadable(path: str, error: OSError) -> str:
+    if not os.path.exists(path):
+        return "there is no such file: name the result file that a run has written"
+    if os.path.isdir(path):
+        return "is a directory: expected a result file in it" + (
+            ", of a run that is going on or was interrupted" if path.rstrip("/").endswith(".part") else "")
+    if os.path.getsize(path) == 0:
+        return "is empty: the run that made it was stopped before its first frame, or the disk was full; run it anew"
+    try:
+        with open(path, "rb") as file:
+            begin = file.read(8)
+    except OSError as why:
+        return f"cannot be read: {why.strerror}"
+    if begin != b"\x89HDF\r\n\x1a\n":
+        return "is no HDF5 file" + (": ParaView opens this one; here name the .h5 beside it" if path.endswith(".xdmf") else
+                                    ": expected a result file (.h5), not a scene; python -m granperi run makes one of it"
+                                    if path.endswith(".toml") else ": expected a result file (.h5)")
+    return f"cannot be read as an HDF5 file, it may be cut off: {error}"
+
+
+def _what_else(file: "h5py.File") -> str:
+    if "bodies" in file and "config" in file:
+        return "a checkpoint, from which granperi.load() goes on"
+    return "an H5MD file of another program" if "h5md" in file else "another HDF5 file"
 
 
 Source = "Simulation | Result | Snapshot | str | os.PathLike[str]"
@@ -307,8 +340,9 @@ def history(source: Any) -> History:
     """The states of a history, of a result or its path, or those that a simulation has kept in frames() or record()."""
     if isinstance(source, (str, os.PathLike)):
         with Result(source) as result:
-            return result.history
+            return history(result)
     if isinstance(source, Result):
+        source[0]  # the error of a file without frames
         return source.history
     kept = source.history if isinstance(source, Simulation) else source
     if not isinstance(kept, History):

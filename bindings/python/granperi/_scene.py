@@ -2,34 +2,25 @@
 from __future__ import annotations
 
 import dataclasses
-import inspect
 import math
 import os
 import re
 import tomllib
-from typing import Any, Callable, Iterator
+from typing import Any, Callable
 
-from ._enums import field_names
+from . import _toml
 from ._errors import ArgumentError, ArgumentTypeError, Error, near_match, number
-from ._objects import Column, Config, Material
-from ._plate import Plate
-from ._profile import read_points
+from ._objects import Config
+from ._probe import Probe
+from ._record import CHECKPOINT_SECONDS, record_scene
+from ._scene_tables import BUILDERS, CONFIG, LISTS, RUN, Run, make_config, make_run
 from ._simulation import Simulation
 from ._state import History
+from ._tables import require_free, write_text
 
 
 class SceneError(ArgumentError):
     """A scene file that cannot be read as one; the text names file, line and table."""
-
-
-@dataclasses.dataclass
-class Run:
-    """How a scene is run: to `end` [s], a frame each `every` [s] in the file `output` ("" for none)."""
-
-    end: float = 1.0
-    every: float = 0.01
-    output: str = ""
-    fields: Any = "default"
 
 
 @dataclasses.dataclass
@@ -46,27 +37,6 @@ class _Part:
         return f"{self.file}{line or self.line}, {self.title}"
 
 
-def _callable_keys(function: Callable) -> list[str]:
-    return [name for name, parameter in inspect.signature(function).parameters.items()
-            if parameter.kind is not inspect.Parameter.VAR_KEYWORD]
-
-
-# Tables that may stand several times, and what they accept.
-_LISTS: dict[str, list[str]] = {
-    "material": ["name", *Material.names()],
-    "column": list(Column.names()),
-    "particles": ["x", "y", "vx", "vy", "material"],
-    "plate": list(Plate.names()),
-    "floor": [*_callable_keys(Plate.floor), "friction", "wall_mu", "fluidity"],
-    "wall": [*_callable_keys(Plate.wall), "friction", "wall_mu", "fluidity"],
-    "gate": [name for name in _callable_keys(Plate.gate) if name != "spacing"],
-    "wall_line": ["points", "file", "closed", "material",
-                  *[name for name in Plate.names() if name not in ("x0", "y0", "x1", "y1", "point_x", "point_y")]],
-}
-_RUN = [field.name for field in dataclasses.fields(Run)]
-_CONFIG = [name.rstrip("_") for name in Config.names()]
-
-
 class Scene:
     """A scene, independent of its spacing.
 
@@ -74,8 +44,8 @@ class Scene:
         with scene.build() as sim:
             sim.run(scene.run.end)
 
-    A scene file (TOML) has the sections [config], [run], [[material]], [[column]], [[particles]], [[plate]], [[floor]],
-    [[wall]], [[gate]] and [[wall_line]], whose points may be in a file beside it.
+    A scene file (TOML) has the sections [config], [run], [[material]], [[column]], [[particles]], [[polygon]], [[mask]],
+    [[plate]], [[floor]], [[wall]], [[gate]], [[wall_line]] and [[probe]]. Points and masks may be in a file beside it.
     """
 
     def __init__(self, config: Config | None = None, run: Run | None = None, name: str = "scene"):
@@ -84,17 +54,17 @@ class Scene:
         self._config_line = ""
 
     def add(self, kind: str, **values: Any) -> None:
-        """Adds a table as in a scene file: "material", "column", "particles", "plate", "floor", "wall", "gate" or
-        "wall_line"."""
+        """Adds a table as in a scene file: "material", "column", "particles", "polygon", "mask", "plate", "floor", "wall",
+        "gate", "wall_line" or "probe"."""
         number_of_kind = 1 + sum(part.kind == kind for part in self._parts)
         self._add(_Part(kind, values, self.name, "", f"{kind} {number_of_kind}"), lambda key: "")
 
     def _add(self, part: _Part, line_of: Callable[[str], str]) -> None:
-        if part.kind not in _LISTS:
-            raise SceneError(f"{part.where()}: there is no table '{part.kind}': {near_match(part.kind, _LISTS)}")
+        if part.kind not in LISTS:
+            raise SceneError(f"{part.where()}: there is no table '{part.kind}': {near_match(part.kind, LISTS)}")
         for key in part.values:
-            if key not in _LISTS[part.kind]:
-                raise SceneError(f"{part.where(line_of(key))}: unknown key '{key}': {near_match(key, _LISTS[part.kind])}")
+            if key not in LISTS[part.kind]:
+                raise SceneError(f"{part.where(line_of(key))}: unknown key '{key}': {near_match(key, LISTS[part.kind])}")
         self._parts.append(part)
 
     # ------------------------------------------------------------------------------------------------ reading
@@ -121,19 +91,19 @@ class Scene:
             raise SceneError(f"{name}: is not TOML: {error}") from None
         lines = _Lines(text)
         scene = cls(name=name)
-        known = ["config", "run", *_LISTS]
+        known = ["config", "run", *LISTS]
         for kind, content in tables.items():
             if kind not in known:
                 raise SceneError(f"{name}{lines.where(kind)}: unknown table or key '{kind}': {near_match(kind, known)}")
-        scene.config = scene._keywords(tables, lines, "config", _CONFIG, _make_config)
-        scene.run = scene._keywords(tables, lines, "run", _RUN, _make_run)
-        for kind in _LISTS:
+        scene.config = scene._keywords(tables, lines, "config", CONFIG, make_config)
+        scene.run = scene._keywords(tables, lines, "run", RUN, make_run)
+        for kind in LISTS:
             several = tables.get(kind, [])
             if not isinstance(several, list) or not all(isinstance(one, dict) for one in several):
                 raise SceneError(f"{name}{lines.where(kind)}: expected [[{kind}]] with two brackets, as there may be "
                                  "several")
             for k, values in enumerate(several):
-                if kind == "wall_line" and isinstance(values.get("file"), str):
+                if isinstance(values.get("file"), str):
                     values = {**values, "file": os.path.join(os.path.dirname(name), values["file"])}
                 part = _Part(kind, values, name, lines.where(kind, k), f"[[{kind}]] number {k + 1}")
                 scene._add(part, lambda key: lines.where(kind, k, key))
@@ -168,23 +138,32 @@ class Scene:
         order = sorted(self._parts, key=lambda part: part.kind != "material")  # stable: materials first
         for part in order:
             try:
-                _builders[part.kind](sim, dict(part.values), materials)
+                BUILDERS[part.kind](sim, dict(part.values), materials)
             except (Error, TypeError) as error:
                 sim.close()
                 raise SceneError(f"{part.where()}: {error}") from None
         return sim
 
+    @property
+    def fixed_spacing(self) -> bool:
+        """Whether it has particles given one by one, whose spacing is theirs."""
+        return any(part.kind == "particles" for part in self._parts)
+
     def smallest_side(self) -> float:
         """The smallest width or height [m] of the scene's columns. ArgumentError: it has none, or particles given one by one,
         whose spacing is theirs."""
-        if any(part.kind == "particles" for part in self._parts):
+        if self.fixed_spacing:
             raise ArgumentError(f"{self.name}: has particles given one by one, whose spacing is theirs: expected a scene of "
                                 "columns, or a length in m")
-        sides = [self._side(part, key) for part in self._parts if part.kind == "column" for key in ("width", "height")]
+        sides = self.column_sides()
         if not sides:
             raise ArgumentError(f"{self.name}: has no column whose sides could be resolved: expected a scene of columns, or a "
                                 "length in m")
         return min(sides)
+
+    def column_sides(self) -> list[float]:
+        """Width and height [m] of each of the scene's columns."""
+        return [self._side(part, key) for part in self._parts if part.kind == "column" for key in ("width", "height")]
 
     @staticmethod
     def _side(column: _Part, key: str) -> float:
@@ -196,76 +175,106 @@ class Scene:
             raise SceneError(f"{column.where()}: {error}") from None
         return side
 
-    def record(self, path: str | None = None, progress: bool = False) -> History:
-        """Builds the scene and runs it as its table [run] says; the frames go to `path` or run.output."""
+    # ---------------------------------------------------------------------------------------------- probes, runs
+
+    def _probes(self) -> list[_Part]:
+        return [part for part in self._parts if part.kind == "probe"]
+
+    def add_probes(self, sim: Simulation) -> list[Probe]:
+        """The probes of the scene, in a simulation of it; see Simulation.add_probe."""
+        probes = []
+        for part in self._probes():
+            values = {name: value for name, value in part.values.items() if name != "output"}
+            try:
+                probes.append(sim.add_probe(**values))
+            except (Error, TypeError) as error:
+                raise SceneError(f"{part.where()}: {error}") from None
+        return probes
+
+    def probe_files(self, result: str) -> list[str]:
+        """Where the probes are written to (CSV) beside a result: as `output` says, or RESULT_probe1.csv and so on."""
+        files = []
+        for k, part in enumerate(self._probes(), 1):
+            name = part.values.get("output", f"{os.path.splitext(os.path.basename(result))[0]}_probe{k}.csv")
+            if not isinstance(name, str) or not name or os.path.basename(name) != name or name in (".", ".."):
+                raise SceneError(f"{part.where()}: output = {name!r}: expected the name of a file, which will be beside the result")
+            files.append(os.path.join(os.path.dirname(result), name))
+        if len(set(files)) < len(files):
+            raise SceneError(f"{self.name}: two probes have the same output: expected another one for each")
+        return files
+
+    def write_into(self, name: str) -> None:
+        """Has the run write NAME.h5, and its probes files that begin with NAME."""
+        self.run.output = name + ".h5"
+        for part in self._probes():
+            if "output" in part.values:
+                part.values["output"] = f"{name}_{part.values['output']}"
+
+    def record(self, path: "str | os.PathLike[str] | None" = None, progress: bool = False, *, overwrite: bool = False,
+               resume: bool = False, checkpoint: float = CHECKPOINT_SECONDS) -> History:
+        """Builds the scene and runs it as its table [run] says; the frames go to `path` or run.output ("": nowhere,
+        and the probes neither).
+
+        Nothing is lost: all of the scene is checked before a file is touched, the run is written into a directory beside
+        its place (collapse.part/ for collapse.h5), and moved there when it is complete. A result that exists is a FileError,
+        unless overwrite (it is replaced by the complete new one) or resume is true: this goes on with a run that was
+        interrupted, with the same bits as if it had not been, or makes a complete one longer (run.end), and does nothing
+        where all is done. For that a checkpoint (collapse.gpc) is saved every `checkpoint` seconds of wall-clock time, when the
+        run is interrupted, and at its end. One process at a time runs into a place: StateError. Another scene than the one
+        that was begun is an ArgumentError that says what differs; its threads, end, until and every may change.
+        """
+        path = os.fspath(path) if path is not None else self.run.output
+        if path:
+            return record_scene(self, path, progress, overwrite, resume, checkpoint)
+        if overwrite or resume:
+            raise ArgumentError("overwrite and resume: there is no output, so nothing to replace or to go on with")
         with self.build() as sim:
-            path = path or self.run.output
-            if path:
-                return sim.record(path, self.run.end, self.run.every, self.run.fields, progress)
-            for _ in sim.frames(self.run.end, self.run.every, progress):
-                pass
-            return sim.history
+            return History(sim.frames(self.run.end, self.run.every, progress, self.run.until == "rest"))
+
+    def write(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
+        """Writes a scene file (TOML), from which read() makes the same scene. Files of points and masks are referred to.
+
+        FileError: the file exists, and overwrite is false.
+        """
+        path = os.fspath(path)
+        require_free(path, overwrite)
+        write_text(path, self.text(os.path.dirname(os.path.abspath(path))))
+
+    def text(self, directory: str = ".") -> str:
+        """What write() writes into a file in this directory."""
+        tables = [(part.kind, {name: os.path.relpath(value, directory) if name == "file" else value
+                               for name, value in part.values.items()}) for part in self._parts]
+        return _toml.text_of_scene(self.config, self.run, tables)
+
+    def set(self, key: str, value: Any) -> None:
+        """Changes one value, named as in a sweep: "config.spacing", "run.end", "column.height" where there is one column,
+        "column.2.height" of the second one, "material.fine.mu_s" of the one with this name."""
+        names = key.split(".") if isinstance(key, str) else []
+        if len(names) == 2 and names[0] == "config" and names[1] in CONFIG and names[1] != "preset":
+            self.config = self.config.replace(**{"nonlocal_" if names[1] == "nonlocal" else names[1]: value})
+        elif len(names) == 2 and names[0] == "run" and names[1] in RUN:
+            self.run = make_run({**vars(self.run), names[1]: value})
+        elif len(names) in (2, 3) and names[0] in LISTS and names[-1] in LISTS[names[0]]:
+            self._one(key, names).values[names[-1]] = value
+        else:
+            raise ArgumentError(f"key {key!r:.80}: {_why_no_key(names)}")
+
+    def _one(self, key: str, names: list[str]) -> _Part:
+        """The table that a key means."""
+        several = [part for part in self._parts if part.kind == names[0]]
+        if len(names) == 2 and len(several) == 1:
+            return several[0]
+        if len(names) == 3:
+            for k, part in enumerate(several, 1):
+                if names[1] in (str(k), part.values.get("name")):
+                    return part
+        which = ", ".join(f"{names[0]}.{k}.{names[-1]}" for k in range(1, len(several) + 1))
+        raise ArgumentError(f"key {key!r:.80}: {self.name} has {len(several)} [[{names[0]}]]"
+                            + (f"; expected {which}" if several else "; add one to the scene first"))
 
     def __repr__(self) -> str:
-        counts = {kind: sum(part.kind == kind for part in self._parts) for kind in _LISTS}
+        counts = {kind: sum(part.kind == kind for part in self._parts) for kind in LISTS}
         return f"<granperi.Scene {self.name}: {', '.join(f'{n} {kind}' for kind, n in counts.items() if n)}>"
-
-
-def _make_config(values: dict[str, Any]) -> Config:
-    return Config(**{"nonlocal_" if key == "nonlocal" else key: value for key, value in values.items()})
-
-
-def _make_run(values: dict[str, Any]) -> Run:
-    run = Run(**values)
-    run.end, run.every = number("end", run.end), number("every", run.every)
-    if not (run.end > 0 and run.every > 0):
-        raise ArgumentError(f"end = {run.end:g}, every = {run.every:g}: expected numbers above 0")
-    if not isinstance(run.output, str):
-        raise ArgumentTypeError(f"output = {run.output!r}: expected the name of a file")
-    if run.fields != "default":
-        field_names(run.fields)
-    return run
-
-
-def _with_material(values: dict[str, Any], materials: dict[Any, int]) -> dict[str, Any]:
-    wanted = values.get("material", 0)
-    if isinstance(wanted, str):
-        if wanted not in materials:
-            names = [name for name in materials if isinstance(name, str)]
-            raise ArgumentError(f"material = {wanted!r}: {near_match(wanted, names)}")
-        values["material"] = materials[wanted]
-    return values
-
-
-def _build_material(sim: Simulation, values: dict[str, Any], materials: dict[Any, int]) -> None:
-    name = values.pop("name", None)
-    if name in materials:
-        raise ArgumentError(f"name = {name!r}: another material has this name")
-    k = sim.add_material(**values)
-    if name is not None:
-        materials[name] = k
-
-
-def _wall_line(values: dict[str, Any]) -> Plate:
-    points, file, closed = (values.pop(name, None) for name in ("points", "file", "closed"))
-    if (points is None) == (file is None):
-        raise ArgumentError("expected either points = [[x, y], ...] or file = the name of a file of two columns, x and y"
-                            + ("" if file is None else ", not both"))
-    if closed is not None and not isinstance(closed, bool):
-        raise ArgumentTypeError(f"closed = {closed!r}: expected true or false")
-    return Plate.line(read_points(file) if points is None else points, bool(closed), **values)
-
-
-_builders: dict[str, Callable[[Simulation, dict[str, Any], dict[Any, int]], Any]] = {
-    "material": _build_material,
-    "column": lambda sim, values, materials: sim.add_column(**_with_material(values, materials)),
-    "particles": lambda sim, values, materials: sim.add_particles(**_with_material(values, materials)),
-    "plate": lambda sim, values, materials: sim.add_plate(**values),
-    "floor": lambda sim, values, materials: sim.add_plate(Plate.floor(**values)),
-    "wall": lambda sim, values, materials: sim.add_plate(Plate.wall(**values)),
-    "gate": lambda sim, values, materials: sim.add_plate(Plate.gate(**values, spacing=sim.config.spacing)),
-    "wall_line": lambda sim, values, materials: sim.add_plate(_wall_line(values)),
-}
 
 
 class _Lines:
@@ -290,6 +299,14 @@ class _Lines:
         """", line N" of the key or the table; nothing if it cannot be told."""
         line = self._at.get((table, k, key), self._at.get((table, k, "")))
         return f", line {line}" if line else ""
+
+
+def _why_no_key(names: list[str]) -> str:
+    if len(names) not in (2, 3) or names[0] not in ("config", "run", *LISTS):
+        return ("expected config.NAME, run.NAME, TABLE.NAME, or TABLE.NUMBER.NAME where there are several; TABLE: "
+                + near_match(names[0] if names else "", LISTS))
+    valid = {"config": [name for name in CONFIG if name != "preset"], "run": RUN}.get(names[0]) or LISTS[names[0]]
+    return near_match(names[-1], valid)
 
 
 def scene_of(scene: Any) -> Scene:

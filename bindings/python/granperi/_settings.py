@@ -46,7 +46,7 @@ class Settings:
                 f"horizon {self.horizon:g} spacings, sleep {self.sleep}\n"
                 f"measured: one run erred by {100 * self.peak_error:.1f} % in the peak, {100 * self.runout_error:.1f} % in the "
                 f"run-out of 90 % of the mass, in the worst of three collapses; {self.cpu_seconds:.2g} CPU s to 1 s with a = 1.25\n"
-                "another scene errs otherwise: compare two spacings of it, granperi.estimate")
+                "another scene errs otherwise: granperi.report tells what")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,17 +55,20 @@ class _Level:
 
     spacings: int
     horizon: float
+    sleep: int
     aim: float
     peak_error: float
     runout_error: float
     cpu_seconds: float
 
 
+# aims: written by bench/performance/aims.py
 _LEVELS = {
-    "draft": _Level(10, 4.0, 0.10, 0.081, 0.071, 0.10),
-    "standard": _Level(15, 4.0, 0.05, 0.042, 0.029, 0.32),
-    "fine": _Level(25, 3.0, 0.02, 0.016, 0.014, 0.93),
+    "draft": _Level(10, 4.0, 1, 0.10, 0.064, 0.077, 0.08),
+    "standard": _Level(15, 4.0, 1, 0.05, 0.040, 0.033, 0.23),
+    "fine": _Level(25, 3.0, 1, 0.02, 0.016, 0.016, 1.02),
 }
+# /aims
 
 
 def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Settings:
@@ -80,7 +83,7 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Setting
         scene.config = granperi.settings("standard", scene).config(scene.config)
 
     Errors and cost are those of three collapses of glass beads (docs/settings.md): what another scene errs by, only runs of it
-    at two spacings tell, as granperi.estimate makes them; its cost grows as its particles and its steps. With granular fluidity
+    at several spacings tell, as granperi.report makes them; its cost grows as its particles and its steps. With granular fluidity
     take the smaller of this spacing and half a grain. sleep = 1 ends creep slower than 0.006 sqrt(g spacing): set 0 where creep
     is the question.
 
@@ -95,5 +98,5 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Setting
     if not (math.isfinite(length) and length > 0):
         raise ArgumentError(f"of = {length:g}: expected a finite length above 0 m, or a scene")
     level = _LEVELS[name]
-    return Settings(name, length, length / level.spacings, level.horizon, 1, level.aim, level.peak_error, level.runout_error,
-                    level.cpu_seconds)
+    return Settings(name, length, length / level.spacings, level.horizon, level.sleep, level.aim, level.peak_error,
+                    level.runout_error, level.cpu_seconds)

@@ -4,25 +4,35 @@ from __future__ import annotations
 import os
 import tempfile
 import weakref
-from typing import TYPE_CHECKING, Any, Callable, Iterator
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Mapping
 
 import numpy as np
 
 from . import _state
 from ._checkpoint import scene_in
+from ._derived import DERIVED, derived, names_with_derived
 from ._engine import Engine
 from ._enums import FIELD_MEANINGS, FIELD_NAMES, Field, field_names
-from ._errors import ArgumentError, ArgumentTypeError, StateError, check, doubles, number, path_bytes, pointer, whole
+from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, check, doubles, near_match, number, path_bytes, pointer, whole
 from ._library import ffi, lib
 from ._objects import Column, Config, Material, Parameters
 from ._output import Output
 from ._plate import Plate
-from ._progress import Progress
-from ._state import Clock, History, Load, PlanEntry, State
+from ._frames import end_of, frames, run_to_rest
+from ._probe import Probe
+from ._progress import Progress, require_tqdm
+from ._timer import interval
+from ._shapes import in_mask, in_polygon
+from ._state import Clock, History, Load, Plan, State
 from ._views import Particles, View
 
 if TYPE_CHECKING:
+    from typing import Unpack
+
     from numpy.typing import NDArray
+
+    from ._objects import ColumnValues, ConfigValues, MaterialValues
+    from ._plate import PlateValues
 
 _INTEGERS = {"id": np.int64, "column": np.int32}
 
@@ -58,8 +68,9 @@ class Simulation:
         viscosity: NDArray[np.float64]
         number_density: NDArray[np.float64]
         fluidity: NDArray[np.float64]
+        speed: NDArray[np.float64]
 
-    def __init__(self, config: Config | None = None, **values: Any):
+    def __init__(self, config: Config | None = None, **values: Unpack[ConfigValues]):
         """config: a Config, or its parameters by keyword."""
         self._config = _taken(Config, config, values)
         self._start(self._create())
@@ -111,6 +122,12 @@ class Simulation:
     def __exit__(self, *error: object) -> None:
         self.close()
 
+    if not TYPE_CHECKING:  # a type checker is to find what does not exist
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            raise AttributeError(f"a Simulation has no '{name}': {near_match(name, [n for n in dir(self) if n[0] != '_'])}")
+
     def __repr__(self) -> str:
         if self.closed:
             return "<granperi.Simulation, closed>"
@@ -133,19 +150,19 @@ class Simulation:
         """Copies of the plates as they were added, by number."""
         return tuple(plate.replace() for plate in self._plates)
 
-    def add_material(self, material: Material | None = None, **values: Any) -> int:
+    def add_material(self, material: Material | None = None, **values: Unpack[MaterialValues]) -> int:
         """Adds a Material, or one of these parameters; returns its number. Material 0, glass beads, is always there."""
         return self._add("material", Material, material, values, self._materials)
 
-    def add_column(self, column: Column | None = None, **values: Any) -> int:
+    def add_column(self, column: Column | None = None, **values: Unpack[ColumnValues]) -> int:
         """Adds a rectangle of particles; returns its number, which is the value of the field column."""
         return self._add("column", Column, column, values, self._columns)
 
-    def add_plate(self, plate: Plate | None = None, **values: Any) -> int:
+    def add_plate(self, plate: Plate | None = None, **values: Unpack[PlateValues]) -> int:
         """Adds a Plate, or one of these parameters: a floor, wall, gate, lid or line; returns its number."""
         return self._add("plate", Plate, plate, values, self._plates)
 
-    def _add(self, name: str, kind: type[Parameters], given: Any, values: dict[str, Any], kept: list) -> int:
+    def _add(self, name: str, kind: type[Parameters], given: Any, values: Mapping[str, Any], kept: list) -> int:
         thing = _taken(kind, given, values)
         number_out = ffi.new("int32_t *")
         with self._changing("add_" + name) as engine:
@@ -167,6 +184,37 @@ class Simulation:
                                        pointer(vx), pointer(vy), number_out))
             self._columns.append(int(material))
         return number_out[0]
+
+    def add_polygon(self, points, material: int = 0, vx: float = 0.0, vy: float = 0.0) -> int:
+        """Adds the particles inside a polygon, points [m] of shape (n, 2) in any order of turning, at the velocity vx, vy [m/s].
+
+        They are on the lattice of a column of the polygon's extent, so a rectangle gives the same places as add_column; but they
+        begin without pressure, as all sets of particles, and settle within the first instants. Where edges cross, what they
+        enclose twice is outside. Returns the set's number, as add_particles.
+        """
+        return self._add_shape(*in_polygon(points, self._config.spacing), material, vx, vy)
+
+    def add_mask(self, mask, x_min: float, y_min: float, width: float, material: int = 0, vx: float = 0.0,
+                 vy: float = 0.0) -> int:
+        """Adds the particles where a mask is true: an array of the shape (rows, columns), the first row at the top, or the path of
+        an image (Pillow reads it), in which what is darker than half is material.
+
+        Its left lower corner is at x_min, y_min [m], its width [m] that of all columns; pixels are square. Else as add_polygon.
+        """
+        return self._add_shape(*in_mask(mask, x_min, y_min, width, self._config.spacing), material, vx, vy)
+
+    def _add_shape(self, x, y, material, vx, vy) -> int:
+        vx, vy = number("vx", vx), number("vy", vy)
+        return self.add_particles(x, y, np.full(len(x), vx), np.full(len(x), vy), material)
+
+    def add_probe(self, points: Any = None, fields: Any = ("pressure", "speed"), plates: Any = (), every: float = 0.01,
+                  radius: float | None = None) -> Probe:
+        """A time series of fields at points [m], shape (n, 2), and of the loads on plates (by number), every so many seconds.
+
+        It begins when the simulation goes on next, at its present state. radius [m] of the means at points, by default two
+        spacings. See Probe.
+        """
+        return Probe(self, points, fields, plates, every, radius)
 
     def set_plate_velocity(self, plate: int, vx: float, vy: float) -> None:
         """Drives a plate at this velocity [m/s] from now on, from where it is; possible at any time, also in a callback."""
@@ -220,46 +268,54 @@ class Simulation:
             with Progress(self, t_end):
                 return engine.advance("run", lib.granperi_run, t_end) == 0
 
-    def frames(self, t_end: float, every: float, progress: bool = False) -> Iterator[State]:
-        """Runs to t_end [s] and yields the state at the start and at every multiple of `every` [s] on the way.
+    def run_until_rest(self, t_max: float, progress: bool = False) -> bool:
+        """Steps until the material rests (state.at_rest), which is looked at after every tenth step, at the latest until the
+        clock shows t_max [s]. True if it rests; False if t_max came first or the callback stopped it.
+
+            if not sim.run_until_rest(5.0):
+                print("still moves at", sim.time)
+        """
+        t_max = end_of(self, "t_max", t_max)
+        with Progress(self, t_max, shown=progress):
+            return run_to_rest(self, t_max)
+
+    def frames(self, t_end: float, every: float, progress: bool = False, until_rest: bool = False) -> Iterator[State]:
+        """Runs to t_end [s] and yields the state at the start, after the first step at or past each multiple of `every` [s]
+        on the way, and at the end.
 
             for state in sim.frames(1.0, 0.01):
                 print(state.time, state.kinetic)
 
-        The states are kept in sim.history. Where the callback stops the run, the iteration ends.
+        No step is made shorter for it: the run has the same bits without frames, and state.time is up to a time step past the
+        multiple. until_rest: ends when the material rests, as run_until_rest() does. The states are kept in sim.history.
+        Where the callback stops the run, the iteration ends.
         """
-        t_end, every = number("t_end", t_end), number("every", every)
-        if not 0 < every < np.inf:
-            raise ArgumentError(f"every = {every}: expected a finite number above 0")
-        return self._frames(t_end, every, progress)
+        t_end, every = end_of(self, "t_end", t_end), interval(every)
+        return self._frames(t_end, every, progress, until_rest)
 
-    def _frames(self, t_end: float, every: float, progress: bool) -> Iterator[State]:
-        state = self.state
-        if not (np.isfinite(t_end) and t_end >= state.time):
-            raise ArgumentError(f"t_end = {t_end}: expected a finite time not before the clock's {state.time} s")
+    def _frames(self, t_end: float, every: float, progress: bool = False, until_rest: bool = False,
+                last_frame: float | None = None) -> Iterator[State]:
+        """last_frame [s]: of a run that is continued; without, it begins with a frame of the present state."""
         with Progress(self, t_end, shown=progress):
-            if not self.history or self.history[-1].time < state.time:
-                self.history.append(state)
-            yield state
-            k = int(np.floor(state.time / every)) + 1
-            while state.time < t_end:
-                whole_run = self.run(min(k * every, t_end))
-                state, k = self.state, k + 1
-                if not self.history or self.history[-1].time < state.time:
-                    self.history.append(state)
-                    yield state
-                if not whole_run:
-                    return
+            if last_frame is None:
+                yield self._keep(self.state)
+                last_frame = self._engine.reached()
+            for state in frames(self, t_end, every, until_rest, last_frame):
+                yield self._keep(state)
+
+    def _keep(self, state: State) -> State:
+        if not self.history or self.history[-1].time < state.time:
+            self.history.append(state)
+        return state
 
     def record(self, path: "str | os.PathLike[str]", t_end: float, every: float = 0.01, fields: Any = "default",
-               progress: bool = False, **options: Any) -> History:
-        """Runs to t_end [s] with a frame in the HDF5 file `path` at the start and every `every` [s]; see output()."""
-        history = History()
+               progress: bool = False, until_rest: bool = False, **options: Any) -> History:
+        """Runs to t_end [s] with a frame in the HDF5 file `path` at the start, after the first step at or past each multiple
+        of `every` [s], and at the end; see frames() and output(). An existing file is replaced: Scene.record() refuses to."""
+        t_end, every = end_of(self, "t_end", t_end), interval(every)
+        require_tqdm(progress)
         with self.output(path, fields=fields, **options) as output:
-            for state in self.frames(t_end, every, progress):
-                history.append(state)
-                output.write()
-        return history
+            return History(output.write_each(self._frames(t_end, every, progress, until_rest)))
 
     def set_callback(self, callback: "Callable[[Simulation], Any] | None", every: int = 1) -> None:
         """Has callback(sim) called after every `every`-th step; None: no longer.
@@ -336,25 +392,38 @@ class Simulation:
             return engine.epoch()
 
     def field(self, name: str) -> np.ndarray:
-        """A copy of one field, shape (n), in the order of id: float64, id int64, column int32."""
+        """A copy of one field, shape (n), in the order of id: float64, id int64, column int32.
+
+        Besides the library's fields: "speed" [m/s], "shear_stress" [Pa], "yielded" (bool).
+        """
+        if isinstance(name, str) and name in DERIVED:
+            with self._engine.locked(name) as engine:
+                return self._copy(engine, name)
         names = field_names(name)
         if len(names) != 1:
             raise ArgumentError(f"field {name!r}: expected the name of a single field; particles() takes groups")
         with self._engine.locked(names[0]) as engine:
             return self._copy(engine, names[0])
 
-    @staticmethod
-    def _copy(engine: Engine, name: str) -> np.ndarray:
+    def _copy(self, engine: Engine, name: str) -> np.ndarray:
+        if name in DERIVED:
+            return derived(name, lambda field: self._copy(engine, field), self._friction_of_columns)
         values = np.empty(engine.count())
         check(lib.gp_copy_field(engine.sim, Field[name.upper()].value, ffi.from_buffer("double[]", values), len(values)))
         return values.astype(_INTEGERS[name]) if name in _INTEGERS else values
 
+    def _friction_of_columns(self) -> np.ndarray:
+        """mu_s of the material of each column and set of particles, as the stresses have it."""
+        friction = np.array([material.mu_s for material in self._materials]) * self._config.friction_factor
+        return friction[[column if isinstance(column, int) else column.material for column in self._columns]]
+
     def particles(self, *fields: str) -> Particles:
         """Copies of fields, each of shape (n), in the order of id; without arguments of all of them.
 
-        Names: those of the fields, or the groups "position", "velocity", "stress" and "all".
+        Names: those of the fields, "speed", "shear_stress" and "yielded", or the groups "position", "velocity", "stress" and
+        "all".
         """
-        names = field_names(fields or "all")
+        names = names_with_derived(fields or "all")
         with self._engine.locked("particles") as engine:
             return Particles({name: self._copy(engine, name) for name in names})
 
@@ -384,7 +453,7 @@ class Simulation:
         with self._engine.locked("plate_load") as engine:
             return _state.read_load(engine.sim, plate)
 
-    def plan(self) -> list[PlanEntry]:
+    def plan(self) -> Plan:
         """What the engine does for this scene and what it leaves out, with bytes and seconds."""
         with self._engine.locked("plan") as engine:
             return _state.read_plan(engine.sim)
@@ -452,11 +521,23 @@ class Simulation:
 
 def _loaded(path: bytes):
     handle = ffi.new("gp_sim **")
-    check(lib.gp_load_file(path, handle))
+    try:
+        check(lib.gp_load_file(path, handle))
+    except FileError as error:
+        raise FileError(f"{error}{_what_instead(os.fsdecode(path))}") from None
     return handle[0]
 
 
-def _taken(kind: type[Parameters], given: Any, values: dict[str, Any]) -> Any:
+def _what_instead(path: str) -> str:
+    """What to do about a file that is no checkpoint."""
+    if not os.path.exists(path):
+        return "; sim.save() writes checkpoints, and Scene.record() does as NAME.gpc"
+    if os.path.isfile(path) and not os.path.getsize(path):
+        return "; it is empty: take an earlier checkpoint, or run anew"
+    return "; frames of a result file are read by granperi.Result" if path.endswith((".h5", ".hdf5")) else ""
+
+
+def _taken(kind: type[Parameters], given: Any, values: Mapping[str, Any]) -> Any:
     """The object given, with the values given, or a new one; always one that nobody else can change."""
     if given is None:
         return kind(**values)
@@ -468,9 +549,9 @@ def _taken(kind: type[Parameters], given: Any, values: dict[str, Any]) -> Any:
 def _field_property(name: str) -> property:
     return property(
         lambda self: self.field(name),
-        doc=f"{name}: {FIELD_MEANINGS[name]}. A copy of shape (n), in the order of id.",
+        doc=f"{name}: {(FIELD_MEANINGS | DERIVED)[name]}. A copy of shape (n), in the order of id.",
     )
 
 
-for _name in FIELD_NAMES:
+for _name in (*FIELD_NAMES, "speed"):
     setattr(Simulation, _name, _field_property(_name))

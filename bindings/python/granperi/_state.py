@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 from typing import NamedTuple
 
 import numpy as np
@@ -9,13 +10,15 @@ import numpy as np
 from ._enums import StepLimit
 from ._errors import check
 from ._library import ffi, lib, text_of
+from ._objects import described
+from ._tables import as_html, write_csv
 
 
 @dataclasses.dataclass(frozen=True)
 class State:
     """Clock, energy ledger, shape and rest of a simulation at one instant (gp_state).
 
-    Energies are in J per metre of depth, momenta in kg/s, lengths in m, times in s.
+    Energies are in J per metre of depth, momenta in kg/s, lengths in m, times in s:
     """
 
     time: float
@@ -77,6 +80,9 @@ class State:
         """Marks of the mass: x [m] that have these shares of it on their left, {0.01: x_q01, ..., 0.99: x_q99}."""
         return {share: getattr(self, name) for share, name in MARKS.items()}
 
+    def _repr_html_(self) -> str:
+        return as_html(("state", "value"), [*vars(self).items(), ("energy_initial", self.energy_initial)])
+
     @property
     def energy_initial(self) -> float:
         """The energy that the ledger began with, J/m."""
@@ -86,6 +92,9 @@ class State:
 MARKS = {int(name[3:]) / 100: name for name in
           ("x_q01", "x_q05", "x_q25", "x_q50", "x_q75", "x_q95", "x_q99")}
 _STATE_NAMES = tuple(field.name for field in dataclasses.fields(State))
+# Of a table for people.
+_SHOWN = ("time", "step", "dt", "kinetic", "potential", "dissipated", "energy_error", "max_speed", "x_q05", "x_q95", "peak_height",
+          "at_rest")
 
 
 def read_state(sim, parts: int = lib.GP_STATE_ALL) -> State:
@@ -114,9 +123,7 @@ def read_clock(sim) -> Clock:
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """Load on a plate over the last step: fx, fy [N/m], torque about its first point [N] and torque_pivot about its pivot [N],
-    counter-clockwise; since the start its displacement dx, dy [m] and angle [rad], and the integrals over time impulse_x,
-    impulse_y [N s/m] and impulse_torque [N s] (of torque_pivot)."""
+    """Load of the material on a plate, and where the plate has got to."""
 
     fx: float
     fy: float
@@ -128,6 +135,9 @@ class Load:
     torque_pivot: float
     angle: float
     impulse_torque: float
+
+    def _repr_html_(self) -> str:
+        return as_html(("load", "value"), vars(self).items())
 
 
 _LOAD_NAMES = tuple(field.name for field in dataclasses.fields(Load))
@@ -153,13 +163,35 @@ class PlanEntry:
     calls: int
 
 
-def read_plan(sim) -> list[PlanEntry]:
+class Plan(list[PlanEntry]):
+    """The entries of a plan; printed and in notebooks a table."""
+
+    _NAMES = ("", "name", "bytes", "seconds", "calls", "why")
+
+    def _rows(self) -> list[list[str]]:
+        return [[("stage" if e.kind == 0 else "field") if e.active else "-", e.name, str(e.bytes or ""),
+                 f"{e.seconds:.3g}" if e.seconds else "", str(e.calls or ""), e.reason] for e in self]
+
+    def __str__(self) -> str:
+        return "\n".join(f"{kind:<9}{name:<28}{size:>12}{seconds:>10}{calls:>8}  {why}"
+                         for kind, name, size, seconds, calls, why in [list(self._NAMES), *self._rows()])
+
+    def _repr_html_(self) -> str:
+        return as_html(self._NAMES, self._rows())
+
+
+def read_plan(sim) -> Plan:
     n = ffi.new("int64_t *")
     check(lib.gp_get_plan(sim, 0, ffi.NULL, n))
     entries = ffi.new("gp_plan_entry[]", n[0])
     check(lib.gp_get_plan(sim, n[0], entries, n))
-    return [PlanEntry(text_of(e.name), text_of(e.reason), e.kind, bool(e.active), e.bytes, e.seconds, e.calls)
-            for e in entries]
+    return Plan(PlanEntry(text_of(e.name), text_of(e.reason), e.kind, bool(e.active), e.bytes, e.seconds, e.calls)
+                for e in entries)
+
+
+State.__doc__ = described("gp_state", State.__doc__)
+Load.__doc__ = described("gp_load", Load.__doc__)
+PlanEntry.__doc__ = described("gp_plan_entry", PlanEntry.__doc__)
 
 
 class History:
@@ -184,6 +216,15 @@ class History:
         if name in _STATE_NAMES or name == "energy_initial":
             return np.array([getattr(state, name) for state in self.states])
         raise AttributeError(f"a history has no '{name}'; it has the fields of granperi.State")
+
+    def to_csv(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
+        """Writes a line per state, with a column for each field of State, as CSV; FileError if the file exists and overwrite is
+        false."""
+        write_csv(path, _STATE_NAMES, ([getattr(state, name) for name in _STATE_NAMES] for state in self.states), overwrite)
+
+    def _repr_html_(self) -> str:
+        shown = self.states if len(self) <= 20 else [*self.states[:10], *self.states[-10:]]
+        return as_html(_SHOWN, ([getattr(state, name) for name in _SHOWN] for state in shown), repr(self)[1:-1])
 
     def __repr__(self) -> str:
         span = f", {self.states[0].time:g} to {self.states[-1].time:g} s" if self.states else ""

@@ -9,6 +9,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from ._enums import FIELD_NAMES, field_bits, field_names
 from ._errors import StateError, check, near_match
 from ._library import ffi, lib
+from ._tables import as_html
 
 if TYPE_CHECKING:
     from ._engine import Engine
@@ -209,6 +210,10 @@ class Particles:
 
     def __len__(self) -> int:
         return len(self.__dict__[self._names[0]]) if self._names else 0
+
+    def _repr_html_(self) -> str:
+        rows = range(len(self)) if len(self) <= 20 else [*range(10), *range(len(self) - 10, len(self))]
+        return as_html(self._names, ([self[name][k] for name in self._names] for k in rows), repr(self)[1:-1])
 
     def __repr__(self) -> str:
         return f"<granperi.Particles: {', '.join(self._names)} of {len(self)} particles>"

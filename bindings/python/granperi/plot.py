@@ -8,7 +8,7 @@ and returns the axes: axes.figure.savefig("picture.png") keeps it.
 """
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -31,11 +31,13 @@ LABELS = {
     "speed": "speed (m/s)", "shear_stress": "shear stress (Pa)", "pressure": "pressure (Pa)", "density": "density (kg/m³)",
     "vx": "velocity in x (m/s)", "vy": "velocity in y (m/s)", "sxx": "deviatoric stress xx (Pa)",
     "sxy": "shear stress xy (Pa)", "syy": "deviatoric stress yy (Pa)", "shear_rate": "shear rate (1/s)",
-    "inertial_number": "inertial number I", "viscosity": "viscosity (Pa s)", "number_density": "number density",
+    "inertial_number": "inertial number I (grey: 0)", "viscosity": "viscosity (Pa s)", "number_density": "number density",
     "fluidity": "fluidity g (1/s)",
     "column": "column", "id": "particle", "x": "x (m)", "y": "y (m)", "yielded": "state",
 }
 _LOGARITHMIC = {"inertial_number": (1e-4, 1.0), "viscosity": None, "shear_rate": None, "fluidity": None}
+_CATEGORIES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8c6d00", "#5b5b5b")
+_MOST_ENTRIES = 8  # in a legend
 _SIGNED = ("vx", "vy", "sxx", "sxy", "syy")
 _WIDTH = 9.6  # inches
 _SMALL, _LARGE = 14, 16  # points; readable at half size
@@ -49,7 +51,8 @@ def _bounds(shot: Snapshot) -> tuple[float, float, float, float]:
         return -1.0, 1.0, 0.0, 1.0
     for line in shot.plate_lines():
         (left, bottom), (right, top) = line.min(axis=0), line.max(axis=0)
-        if np.array_equal(line[0], line[-1]) and left <= x.min() and x.max() <= right and bottom <= y.min() <= top:
+        closed = np.hypot(*(line[0] - line[-1])) < 0.01 * shot.spacing
+        if closed and left - margin <= x.min() and x.max() <= right + margin and bottom - margin <= y.min() <= top:
             x, y = np.append(x, [left, right]), np.append(y, [bottom, top])
     wide = 0.03 * (np.ptp(x) + np.ptp(y)) + margin
     return x.min() - wide, x.max() + wide, y.min() - margin, y.max() + wide
@@ -65,15 +68,29 @@ def _scene_axes(axes: Axes | None, bounds, bar: bool, x_label: bool = True) -> A
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
     axes.set_aspect("equal", adjustable="box")
-    axes.locator_params(axis="y", nbins=6)
+    _few_ticks(axes)
     if x_label:
         axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")
     return axes
 
 
+def _few_ticks(axes: Axes) -> None:
+    """So few that their numbers do not touch: the axes may be narrow, to keep the aspect."""
+    width, height = axes.get_position().size * axes.figure.get_size_inches()
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    narrow = min(1.0, (right - left) / (top - bottom) * height / width)
+    axes.locator_params(axis="x", nbins=max(2, min(9, int(1.1 * width * narrow))))
+    axes.locator_params(axis="y", nbins=6)
+
+
 def _legend_above(axes: Axes) -> None:
-    """Beside the title, where it hides nothing."""
+    """Beside the title, where it hides nothing; each further row makes a figure of its own higher by as much."""
+    rows = -(-len(axes.get_legend_handles_labels()[1]) // 4)
+    before = axes.get_legend()
+    more = rows - (-(-len(before.get_texts()) // 4) if before is not None else 1)
+    if more > 0 and len(axes.figure.axes) == 1:
+        axes.figure.set_size_inches(axes.figure.get_size_inches() + [0, 0.3 * more])
     axes.legend(frameon=False, fontsize=_SMALL, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=4, borderaxespad=0.1,
                 columnspacing=1.2, handlelength=1.4)
 
@@ -88,9 +105,11 @@ def _curve_axes(axes: Axes | None, x_label: str, y_label: str) -> Axes:
     return axes
 
 
-def _plates(axes: Axes, shot: Snapshot) -> None:
-    for line in shot.plate_lines():
-        axes.plot(*line.T, color="black", linewidth=2, zorder=3, solid_capstyle="butt", gid="plate")
+def _plates(axes: Axes, shot: Snapshot, colour: str = "black", but: "list[np.ndarray] | None" = None) -> None:
+    """Plates where they are at that time; but: without those that are where they are there."""
+    for k, line in enumerate(shot.plate_lines()):
+        if but is None or not np.allclose(line, but[k], rtol=0, atol=0.01 * shot.spacing):
+            axes.plot(*line.T, color=colour, linewidth=2, zorder=3, solid_capstyle="butt", gid="plate")
 
 
 def _surface_line(shot: Snapshot) -> tuple[np.ndarray, np.ndarray]:
@@ -115,9 +134,12 @@ def _colours(name: str, values: np.ndarray) -> tuple[Any, Any, str]:
     if name in _SIGNED:
         most = np.percentile(np.abs(finite), 99.5) if len(finite) else 1.0
         return plt.get_cmap("RdBu_r"), Normalize(-(most or 1.0), most or 1.0), "both"
-    if name in ("column", "id"):
-        scale = Normalize(finite.min(initial=0), finite.max(initial=1))
-        return plt.get_cmap("tab10" if name == "column" else "viridis"), scale, "neither"
+    if name == "column":  # categories: the bar has one field for each
+        last = max(int(finite.max(initial=0)), 0)
+        colours = [_CATEGORIES[k % len(_CATEGORIES)] for k in range(last + 1)]
+        return ListedColormap(colours), BoundaryNorm(np.arange(-0.5, last + 1), last + 1), "neither"
+    if name == "id":
+        return plt.get_cmap("viridis"), Normalize(finite.min(initial=0), finite.max(initial=1)), "neither"
     low = min(0.0, finite.min(initial=0.0)) if name not in ("density", "x", "y") else finite.min(initial=np.inf)
     high = np.percentile(finite, 99.5) if len(finite) else 1.0
     return plt.get_cmap("viridis"), Normalize(low, high if high > low else low + 1.0), "max"
@@ -141,6 +163,10 @@ def _drawable(values: np.ndarray, norm) -> np.ndarray:
 def _colour_bar(axes: Axes, discs, name: str, extend: str) -> None:
     with plt.rc_context(_STYLE):
         bar = axes.figure.colorbar(discs, ax=axes, extend=extend, label=LABELS[name], fraction=0.05, pad=0.02, shrink=0.9)
+    if name == "column":
+        last = round(discs.norm.vmax - 0.5)
+        bar.set_ticks(range(0, last + 1, 1 + last // _MOST_ENTRIES))
+        bar.minorticks_off()
     if name == "yielded":
         bar.set_ticks([0, 1], labels=["below yield", "at yield"], rotation=90, va="center")
         bar.set_label("")
@@ -164,19 +190,48 @@ def field(source: Any, name: str = "speed", time: float | None = None, axes: Axe
     return axes
 
 
-def surface(source: Any, time: float | None = None, axes: Axes | None = None, label: str | None = None) -> Axes:
-    """The free surface of the deposit; draw into the same axes for several."""
-    shot = snapshot(source, time)
-    left, right, bottom, top = _bounds(shot)
+def surface(source: Any, time: "float | Sequence[float] | None" = None, axes: Axes | None = None,
+            label: str | None = None) -> Axes:
+    """The free surface of the deposit, and the plates, where they are at that time.
+
+    time [s]: of a result file, one or several, from light to dark: plot.surface("collapse.h5", [0, 0.1, 0.2, 0.4]). Draw into the
+    same axes for several sources.
+    """
+    if time is None or np.ndim(time) == 0:
+        return _surfaces([snapshot(source, time)], axes, None if label is None else [label], [None])
+    times = [float(one) for one in time]
+    if not times:
+        raise ArgumentError("time: expected one time or several")
+    shots = [snapshot(source, one) for one in times]
+    labels = [f"t = {shot.time:.3g} s" if label is None else f"{label}, t = {shot.time:.3g} s" for shot in shots]
+    return _surfaces(shots, axes, labels, list(plt.get_cmap("viridis_r")(np.linspace(0.15, 1.0, len(shots)))))
+
+
+def _surfaces(shots: Sequence[Snapshot], axes: Axes | None, labels: "list[str] | None", colours: list) -> Axes:
+    bounds = np.array([_bounds(shot) for shot in shots])
+    left, right, bottom, top = bounds[:, 0].min(), bounds[:, 1].max(), bounds[:, 2].min(), bounds[:, 3].max()
     if axes is None:
         axes = _scene_axes(None, (left, right, bottom, top), bar=False)
         axes.set_title("free surface", loc="left", fontsize=_SMALL)
-        _plates(axes, shot)
-    else:  # room for all that is drawn
+    else:  # room for all that is drawn, at the size that it has
         (left_before, right_before), (bottom_before, top_before) = axes.get_xlim(), axes.get_ylim()
-        axes.set_xlim(min(left, left_before), max(right, right_before))
-        axes.set_ylim(min(bottom, bottom_before), max(top, top_before))
-    axes.plot(*_surface_line(shot), label=label or f"t = {shot.time:.3f} s", linewidth=2)
+        left, right = min(left, left_before), max(right, right_before)
+        bottom, top = min(bottom, bottom_before), max(top, top_before)
+        figure, inches = axes.figure, axes.figure.get_size_inches()
+        grown = (top - bottom) / (top_before - bottom_before) * (right_before - left_before) / (right - left)
+        if len(figure.axes) == 1 and grown > 1:  # a figure of our own kind: higher, not narrower
+            figure.set_size_inches(inches[0], min(inches[1] + (inches[1] - 1.3) * (grown - 1), 12))
+        axes.set_xlim(left, right)
+        axes.set_ylim(bottom, top)
+    named = set(np.linspace(0, len(shots) - 1, min(len(shots), _MOST_ENTRIES)).round().astype(int))  # first and last among them
+    last = shots[-1].plate_lines()
+    for k, (shot, colour) in enumerate(zip(shots, colours)):
+        text = labels[k] if labels else f"t = {shot.time:.3f} s"
+        curve, = axes.plot(*_surface_line(shot), label=text if k in named else None, linewidth=2, color=colour)
+        if k < len(shots) - 1:
+            _plates(axes, shot, curve.get_color(), but=last)
+    _plates(axes, shots[-1])
+    _few_ticks(axes)
     _legend_above(axes)
     return axes
 
@@ -221,12 +276,17 @@ def energy(source: Any, axes: Axes | None = None) -> Axes:
 
 
 def fronts(source: Any, axes: Axes | None = None) -> Axes:
-    """Time-distance diagram of the two fronts."""
+    """Time-distance diagram of where the mass lies: bands that hold its middle 98, 90 and 50 %, the middle and the peak. Unlike the
+    outermost grains, which a single one sets, these converge with the spacing."""
     past = history(source)
     axes = _curve_axes(axes, "x (m)", "t (s)")
-    axes.plot(past.x_left, past.time, label="left front")
-    axes.plot(past.x_right, past.time, label="right front")
-    axes.plot(past.peak_x, past.time, label="peak", linestyle=":", color="0.4")
+    for low, high, share, colour in ((past.x_q01, past.x_q99, 98, "#d7e4f0"), (past.x_q05, past.x_q95, 90, "#a9c6e0"),
+                                     (past.x_q25, past.x_q75, 50, "#6a9cc8")):
+        axes.fill_betweenx(past.time, low, high, color=colour, linewidth=0, label=f"{share} % of the mass")
+    axes.plot(past.x_q05, past.time, color="#0072b2", linewidth=2, label="5 and 95 %")
+    axes.plot(past.x_q95, past.time, color="#0072b2", linewidth=2)
+    axes.plot(past.x_q50, past.time, color="black", linewidth=1.5, label="half of it")
+    axes.plot(past.peak_x, past.time, label="peak", linestyle=":", color="#d55e00")
     axes.set_ylim(past.time[0], past.time[-1])
     axes.legend(frameon=False, fontsize=_SMALL, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return axes
@@ -238,9 +298,9 @@ def compare(one: Any, other: Any, time: float | None = None, labels: tuple[str, 
     shots = [snapshot(source, time) for source in (one, other)]
     bounds = np.array([_bounds(shot) for shot in shots])
     axes = _scene_axes(axes, (bounds[:, 0].min(), bounds[:, 1].max(), bounds[:, 2].min(), bounds[:, 3].max()), bar=False)
-    for shot, label, style in zip(shots, labels, ("-", "--")):
-        axes.plot(*_surface_line(shot), linestyle=style, label=f"{label}, t = {shot.time:.3f} s")
-    _plates(axes, shots[0])
+    for shot, label, style, colour in zip(shots, labels, ("-", "--"), ("#0072b2", "#d55e00")):
+        axes.plot(*_surface_line(shot), linestyle=style, color=colour, label=f"{label}, t = {shot.time:.3f} s")
+        _plates(axes, shot, colour)
     _legend_above(axes)
     return axes
 

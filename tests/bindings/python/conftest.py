@@ -53,6 +53,15 @@ needs_hdf5 = pytest.mark.skipif(not granperi.has_feature("hdf5"), reason="the li
 needs_openmp = pytest.mark.skipif(not granperi.has_feature("openmp"), reason="the library has no threads")
 
 
+def frames_in(path):
+    """The number of frames that a run has written by now."""
+    try:
+        with granperi.Result(path) as result:
+            return len(result)
+    except granperi.FileError:
+        return 0
+
+
 def assert_same_state(kept, live):
     """All but the wall-clock time, which a file does not keep."""
     assert math.isnan(kept.wall_seconds)

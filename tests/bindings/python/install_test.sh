@@ -6,7 +6,7 @@
 set -u
 build=$1 libdir=$2 source=$3 python=$4
 command -v pkg-config >/dev/null || { echo "skipped: no pkg-config"; exit 77; }
-"$python" -c "import venv, ensurepip, setuptools, wheel, cffi" || { echo "skipped: no venv, pip or setuptools"; exit 77; }
+"$python" -c "import venv, ensurepip, cffi, matplotlib" || { echo "skipped: no venv, pip, cffi or matplotlib"; exit 77; }
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 fail() { echo "FAILED: $*"; exit 1; }
@@ -16,7 +16,7 @@ unset PYTHONPATH LD_LIBRARY_PATH PKG_CONFIG_PATH
 cp -r "$source/bindings/python" "$work/package" # pip builds in the tree: a clean one stays clean
 cd "$work" || exit 1
 "$python" -m venv --system-site-packages "$work/venv" || fail "venv"
-pip=("$work/venv/bin/python" -m pip install --no-build-isolation --no-index --disable-pip-version-check)
+pip=("$work/venv/bin/python" -m pip install --no-index --disable-pip-version-check)
 
 # Without the library: a message that says what to do.
 PKG_CONFIG_LIBDIR=$work/nowhere "${pip[@]}" ./package >"$work/log" 2>&1 && fail "it installs without the library"

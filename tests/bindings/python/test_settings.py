@@ -3,6 +3,7 @@ import math
 
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import granperi
 
@@ -85,6 +86,12 @@ def test_scenes_whose_spacing_is_not_free():
     scene = granperi.Scene.parse(TEXT.replace("height = 0.32", "height = -0.3"))
     with pytest.raises(granperi.SceneError, match=r"line 10, \[\[column\]\] number 2: gp_column.height = -0.3: expected a finite"):
         granperi.settings("draft", scene)
+
+
+def test_all_places_say_the_same(python):
+    """The guide, docs/settings.md and granperi.settings have their figures from one file."""
+    checked = python(str(ROOT / "bench" / "performance" / "aims.py"), "--check")
+    assert checked.returncode == 0, checked.stdout + checked.stderr
 
 
 @pytest.mark.parametrize("name, runs", [("draft", 8), ("fine", 6)])

@@ -1,6 +1,6 @@
 /* What the exact solutions have in common: the material, layers that are periodic in x, and the lines of a result. */
-#ifndef GP_BENCH_EXACT_H
-#define GP_BENCH_EXACT_H
+#ifndef GP_BENCH_EXACT_LAYER_H
+#define GP_BENCH_EXACT_LAYER_H
 
 #include <granperi/gp.h>
 
@@ -59,15 +59,5 @@ double mean_plate_force(layer *a, double *fy, double from, double to);
 void print_cost(gp_sim *sim);
 /* Compares the mean velocity of each row of particles with the exact one at its mean height. */
 void print_profile(const layer *a, const options *o, profile exact, const void *data, double scale);
-
-/* ------------------------------------------------------------------------------------------------- cases */
-
-void hydrostatic(const options *o);
-void shear_box(const options *o);
-void gradient(const options *o);
-void bagnold(const options *o, int start_up);
-void chute_flow(const options *o);
-void couette_cell(const options *o);
-void slope(const options *o);
 
 #endif

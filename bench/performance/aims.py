@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""The table "aim: spacing, settings, seconds", in all places that have it, from one file: bench/performance/aims.json.
+
+    /usr/bin/python3 bench/performance/aims.py            # writes it into the guide, docs/settings.md and granperi.settings
+    /usr/bin/python3 bench/performance/aims.py --check    # 1 if one of them says something else
+    PYTHONPATH=build/python /usr/bin/python3 bench/performance/aims.py --measure    # some 150 CPU s: errors and CPU times anew
+    /usr/bin/python3 bench/performance/aims.py --figure   # docs/images/performance_collapse.png
+
+In aims.json "levels" are the settings, "curves" [L/dl, CPU s, error of one run] of the column with a = 1.25, "mpm" the same column by an
+explicit MPM code with the same law, [L/dl, CPU s, peak y/L, run-out of 90 % of the mass], single runs: not measured here.
+
+Between two marks, <!-- aims --> and <!-- /aims -->, in Python # aims and # /aims, a page is not written by hand.
+"""
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+DATA = HERE / "aims.json"
+# Of each scene the spacings over its width that make those of the level over its smaller side, and the number of runs. One side: those
+# that divide both sides (21 in place of 20 rounds the height by 2 %, and its run-out errs by 5.9 %).
+RESOLUTIONS = {"draft": {"a125": (16, 24), "a5": (10, 4), "one": (20, 4)},
+               "standard": {"a125": (24, 16), "a5": (15, 4), "one": (20, 4)},
+               "fine": {"a125": (40, 12), "a5": (25, 4), "one": (30, 4)}}
+
+CURVES = {"horizon 4": (4, (16, 24, 32, 40, 48)), "horizon 3": (3, (16, 24, 32, 40, 48, 64))}
+CURVE_RUNS = 4
+
+Levels = dict[str, dict[str, Any]]
+
+
+def percent(share: float, digits: int = 1) -> str:
+    return f"{100 * share:.{digits}f} %"
+
+
+def markdown(levels: Levels) -> str:
+    lines = ["| aim | spacing | horizon | `sleep` | peak | run-out | CPU s |", "|---|---|---:|---:|---:|---:|---:|"]
+    lines += [f"| {name}: below {percent(of['aim'], 0)} | smaller side / {of['spacings']} | {of['horizon']} | {of['sleep']} | "
+              f"{percent(of['peak_error'])} ({percent(of['peak_error_a125'])}) | "
+              f"{percent(of['runout_error'])} ({percent(of['runout_error_a125'])}) | {of['cpu_seconds']:.2f} |"
+              for name, of in levels.items()]
+    return "\n".join(lines)
+
+
+def python(levels: Levels) -> str:
+    lines = ["_LEVELS = {"]
+    lines += [f'    "{name}": _Level({of["spacings"]}, {of["horizon"]:.1f}, {of["sleep"]}, {of["aim"]:.2f}, {of["peak_error"]:.3f}, '
+              f'{of["runout_error"]:.3f}, {of["cpu_seconds"]:.2f}),' for name, of in levels.items()]
+    return "\n".join([*lines, "}"])
+
+
+PLACES = {"docs/settings.md": ("<!-- aims -->", "<!-- /aims -->", markdown),
+          "docs/guide/resolution.md": ("<!-- aims -->", "<!-- /aims -->", markdown),
+          "bindings/python/granperi/_settings.py": ("# aims: written by bench/performance/aims.py", "# /aims", python)}
+
+
+def replaced(text: str, begin: str, end: str, content: str) -> str:
+    found = re.findall(re.escape(begin) + r"\n.*?\n" + re.escape(end), text, flags=re.S)
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} places between {begin} and {end}")
+    return text.replace(found[0], f"{begin}\n{content}\n{end}")
+
+
+def measure(levels: Levels) -> None:
+    import numpy as np
+
+    import settings
+
+    for name, of in levels.items():
+        worst: dict[str, float] = {"peak": 0.0, "runout": 0.0}
+        for label, (resolution, runs) in RESOLUTIONS[name].items():
+            scene = settings.SCENES[label]
+            done = [settings.run(scene, resolution, seed, horizon=of["horizon"], sleep=of["sleep"]) for seed in range(1, runs + 1)]
+            for what, reference in zip(worst, scene.reference):
+                one = settings.errors([getattr(run, what) for run in done], reference)[2]
+                worst[what] = max(worst[what], one)
+                if label == "a125":
+                    of[f"{what}_error_a125"] = round(one, 3)
+            if label == "a125":
+                of["cpu_seconds"] = round(float(np.median([run.cpu for run in done])), 2)
+            print(f"{name} {label}: done", flush=True)
+        of["peak_error"], of["runout_error"] = round(worst["peak"], 3), round(worst["runout"], 3)
+        print(f"{name}: {of}", flush=True)
+        if max(of["peak_error_a125"], of["runout_error_a125"]) > of["aim"]:
+            print(f"{name} misses its aim", flush=True)
+
+
+def measure_curves() -> dict[str, list[list[float]]]:
+    import numpy as np
+
+    import settings
+
+    scene, curves = settings.SCENES["a125"], {}
+    for name, (horizon, resolutions) in CURVES.items():
+        curves[name] = []
+        for n in resolutions:
+            done = [settings.run(scene, n, seed, horizon=horizon, sleep=1) for seed in range(1, CURVE_RUNS + 1)]
+            larger = max(settings.errors([getattr(run, what) for run in done], reference)[2]
+                         for what, reference in zip(("peak", "runout"), scene.reference))
+            curves[name].append([n, round(float(np.median([run.cpu for run in done])), 2), round(larger, 3)])
+            print(name, curves[name][-1], flush=True)
+    return curves
+
+
+def figure(data: dict[str, Any], path: Path) -> None:
+    """Error of one run, peak or run-out whichever is larger, against CPU time."""
+    sys.path.insert(0, str(HERE.parent / "common"))
+    import matplotlib.pyplot as plt
+    from matplotlib.ticker import FuncFormatter, NullLocator
+    from plotting import finish
+
+    fig, axes = plt.subplots(figsize=(9.2, 6.2), layout="constrained")
+    for (name, points), colour, marker in zip(data["curves"].items(), ("#0072B2", "#009E73"), "os"):
+        label = f"granperi, {name}"
+        axes.plot([cpu for _, cpu, _ in points], [100 * error for *_, error in points], color=colour, marker=marker, ms=7,
+                  label=label)
+    peak, runout = data["mpm"]["reference"]
+    for name, colour in (("c = 10 m/s", "0.25"), ("tuned", "0.6")):
+        points = data["mpm"][name]
+        errors = [100 * max(abs(r / runout - 1), abs(p / peak - 1) if p is not None else 0) for _, _, p, r in points]
+        axes.plot([cpu for _, cpu, _, _ in points], errors, color=colour, marker="^", ms=8, ls="--",
+                  label=f"MPM ({data['mpm']['code'].split()[0]}), {name}")
+        for (n, cpu, _, _), error in zip(points, errors):
+            axes.annotate(f"L/{n}", (cpu, error), textcoords="offset points", color=colour, fontsize=12,
+                          xytext=(6, 8) if name == "c = 10 m/s" else (4, 8))
+    for name, of in data["levels"].items():
+        error = 100 * max(of["peak_error_a125"], of["runout_error_a125"])
+        axes.plot(of["cpu_seconds"], error, "*", color="#D55E00", ms=22, mec="white", zorder=4)
+        away, side = ((-12, -20), "right") if name == "standard" else ((14, 8), "left")  # where there is room
+        axes.annotate(f"{name}: {of['cpu_seconds']:.2g} s", (of["cpu_seconds"], error), textcoords="offset points", xytext=away,
+                      ha=side, color="#B04A00", weight="bold")
+    axes.set(xscale="log", yscale="log", xlabel="CPU seconds of one run to 1 s", ylabel="error of one run, %", xlim=(0.03, 80),
+             ylim=(0.5, 14))
+    for axis, ticks in ((axes.xaxis, (0.03, 0.1, 0.3, 1, 3, 10, 30)), (axes.yaxis, (0.5, 1, 2, 5, 10))):
+        axis.set_ticks(ticks)
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_locator(NullLocator())
+    axes.grid(color="0.9")
+    axes.set_axisbelow(True)
+    axes.plot([], [], "*", color="#D55E00", ms=16, ls="none", label="recommended settings")
+    axes.legend(loc="lower left")
+    finish(fig, path)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="writes nothing; 1 if a place differs")
+    parser.add_argument("--measure", action="store_true", help="runs the three columns first and writes the data")
+    parser.add_argument("--figure", action="store_true", help="draws docs/images/performance_collapse.png, too (matplotlib)")
+    options = parser.parse_args()
+    data = json.loads(DATA.read_text())
+    if options.measure:
+        measure(data["levels"])
+        data["curves"] = measure_curves()
+        DATA.write_text(re.sub(r"\[\s+([^][{}]*?)\s+\]", lambda found: "[" + re.sub(r"\s+", " ", found[1]) + "]",
+                               json.dumps(data, indent=1)) + "\n")  # one point in a line
+    if options.figure:
+        figure(data, ROOT / "docs" / "images" / "performance_collapse.png")
+    differs = 0
+    for place, (begin, end, write) in PLACES.items():
+        path = ROOT / place
+        text = path.read_text()
+        new = replaced(text, begin, end, write(data["levels"]))
+        if new != text:
+            differs = 1
+            print(f"{place}: {'differs' if options.check else 'written'}")
+            if not options.check:
+                path.write_text(new)
+    return differs if options.check else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

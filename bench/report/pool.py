@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Runs the scenes of docs/report.md at several spacings and seeds: one line of JSON per run, behind those that are there.
+
+    PYTHONPATH=build/python /usr/bin/python3 bench/report/pool.py bench/report/pool.jsonl
+
+Some 400 CPU s. What is there is not run again: begin with an empty file for another library.
+"""
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from granperi import _report_runs as runs
+
+import granperi
+
+HERE = Path(__file__).resolve().parent
+
+
+@dataclasses.dataclass(frozen=True)
+class Study:
+    """The length that the resolutions of a scene count in, and how many runs there are of each."""
+
+    length: float  # m
+    seeds: dict[int, int]
+
+
+STUDIES = {
+    "a125": Study(0.08, {8: 12, 16: 12, 24: 12, 32: 8, 40: 6, 48: 4, 64: 4, 96: 2}),
+    "a5": Study(0.08, {6: 12, 8: 12, 10: 12, 12: 12, 16: 8, 20: 6, 24: 4, 32: 3, 48: 1}),
+    "hopper": Study(0.05, {4: 12, 5: 12, 6: 12, 8: 10, 10: 8, 12: 5, 16: 4, 20: 3, 24: 1}),
+    "one_side": Study(0.2, {10: 8, 20: 8, 30: 8, 40: 6, 50: 4, 60: 3, 80: 1}),
+    "colliding": Study(0.02, {2: 8, 3: 8, 4: 8, 5: 6, 6: 4, 8: 3, 10: 1}),
+}
+QUANTITIES = {"hopper": {"left": lambda sim: np.mean(sim.y > 0)}}  # the share of the mass that is still in the bin
+
+
+def read(path: Path) -> list[dict[str, Any]]:
+    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _plain(one) for name, one in value.items()}
+    if isinstance(value, float):
+        return float(f"{value:.6g}") if math.isfinite(value) else None
+    return value
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("pool", type=Path)
+    parser.add_argument("--only", nargs="+", choices=STUDIES, default=list(STUDIES), help="scenes [all]")
+    options = parser.parse_args()
+    done = {(row["scene"], row["resolution"], row["seed"]) for row in read(options.pool)}
+    cheapest_first = sorted((resolution / min(STUDIES[name].seeds), name, resolution, seed) for name in options.only
+                            for resolution, seeds in STUDIES[name].seeds.items() for seed in range(1, seeds + 1))
+    for _, name, resolution, seed in cheapest_first:
+        if (name, resolution, seed) in done:
+            continue
+        scene = granperi.Scene.read(HERE / f"{name}.toml")
+        one, _ = runs.measure(scene, STUDIES[name].length / resolution, seed, scene.run.end, QUANTITIES.get(name, {}))
+        row = _plain({"scene": name, "resolution": resolution, **dataclasses.asdict(one)})
+        del row["spacing"]
+        with options.pool.open("a") as file:
+            file.write(json.dumps(row) + "\n")
+        print(f"{name} {resolution} {seed}: {one.cpu_seconds:.2f} CPU s", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+"""What the commands of `python -m granperi` share: each is a module _cli_NAME with a function add(commands)."""
+from __future__ import annotations
+
+import argparse
+import contextlib
+import signal
+import sys
+from types import FrameType
+from typing import Any, Callable, Iterator
+
+
+class Terminated(KeyboardInterrupt):
+    """SIGTERM: a batch system wants its processor back."""
+
+
+@contextlib.contextmanager
+def saved_when_terminated(hint: str) -> Iterator[None]:
+    """SIGTERM interrupts what is inside as Ctrl-C does; the hint says how it goes on after that."""
+    def terminate(number: int, frame: "FrameType | None") -> None:
+        raise Terminated
+
+    before = signal.signal(signal.SIGTERM, terminate)
+    try:
+        yield
+    except KeyboardInterrupt:
+        if hint:
+            print(f"granperi: {hint}", file=sys.stderr)
+        raise
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+class Commands:
+    """The commands of the command line, to which each module adds its own."""
+
+    def __init__(self, parser: argparse.ArgumentParser):
+        self._all = parser.add_subparsers(dest="command", required=True, metavar="command")
+
+    def add(self, name: str, function: Callable[[argparse.Namespace], None], help: str, **more: Any) -> argparse.ArgumentParser:
+        """A command that calls function(options); the parser, for its arguments."""
+        one = self._all.add_parser(name, help=help, description=help, **more)
+        one.set_defaults(function=function)
+        return one
+
+
+def whole_above_0(text: str) -> int:
+    """The type of an argument that counts something."""
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text}: expected a whole number >= 1")
+    return number

@@ -1,0 +1,239 @@
+"""Error against run time, of one's own scene."""
+from __future__ import annotations
+
+import math
+import os
+import time
+import warnings
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from typing import Any, Mapping, Sequence
+
+from ._errors import ArgumentError, ArgumentTypeError, near_match, number, whole
+from ._report_ladder import ROUNDED, Cost, Sides, given
+from ._report_result import ASKED, Report
+from ._report_runs import QUANTITIES, REST, Measured, OutOfTime, Quantity, checked, measure, standard
+from ._scene import Scene, scene_of
+
+LEVELS = 4
+KEPT_BACK = 0.85  # share of the budget that is planned with: runs differ, and a machine has other work
+
+
+class _Bar:
+    """Over the seconds of the budget, where tqdm is and it is wanted."""
+
+    def __init__(self, budget: float, shown: bool):
+        self._begin, self._bar = time.monotonic(), None
+        if shown:
+            try:
+                from tqdm.auto import tqdm
+            except ImportError:
+                raise ImportError("a progress bar needs tqdm (Debian: python3-tqdm); or report(progress=False)") from None
+            self._bar = tqdm(total=budget, unit="s", bar_format="{desc} |{bar}| {n:.0f}/{total:g} s of the budget")
+
+    def show(self, text: str) -> None:
+        if self._bar is not None:
+            self._bar.set_description_str(text)
+            self._bar.n = min(time.monotonic() - self._begin, self._bar.total)
+            self._bar.refresh()
+
+    def close(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
+class _Study:
+    """The runs of a report while they are made."""
+
+    def __init__(self, scene: Scene, end: float, budget: float, quantities: Mapping[str, Quantity], workers: int, bar: _Bar):
+        self.scene, self.end, self.quantities, self.workers, self.bar = scene, end, quantities, workers, bar
+        self.begin = time.monotonic()
+        self.budget, self.deadline = budget, self.begin + budget
+        self.runs: list[Measured] = []
+        self.waited = 0.0  # s of wall-clock time inside the runs
+        self.plan: list[Any] = []
+
+    def left(self) -> float:
+        return self.deadline - time.monotonic()
+
+    def run(self, jobs: Sequence[tuple[float, int]]) -> None:
+        """Pairs of spacing and seed, in this order, as far as the time is enough."""
+        if self.workers == 1:
+            for spacing, seed in jobs:
+                if not self._fits(spacing):
+                    return
+                self.bar.show(f"spacing {spacing:.3g} m, run {seed}")
+                if not self._keep(lambda: self._measured(spacing, seed)):
+                    return
+            return
+        self._run_beside(list(jobs))
+
+    def _run_beside(self, jobs: list[tuple[float, int]]) -> None:
+        busy: dict[Future, float] = {}
+        with ThreadPoolExecutor(self.workers) as pool:
+            try:
+                while jobs or busy:
+                    while jobs and len(busy) < self.workers:
+                        spacing, seed = jobs.pop(0)
+                        if not self._fits(spacing):
+                            jobs.clear()
+                            break
+                        self.bar.show(f"spacing {spacing:.3g} m, run {seed}")
+                        busy[pool.submit(self._measured, spacing, seed)] = spacing
+                    for done in wait(busy, timeout=1, return_when=FIRST_COMPLETED).done:
+                        busy.pop(done)
+                        self._keep(done.result)
+            except BaseException:
+                self.deadline = -math.inf  # what still runs ends at its next look
+                raise
+
+    def _measured(self, spacing: float, seed: int) -> tuple[Measured, list]:
+        begin = time.monotonic()
+        try:
+            return measure(self.scene, spacing, seed, self.end, self.quantities, lambda: self.deadline)
+        finally:
+            self.waited += time.monotonic() - begin
+
+    def _keep(self, result: Any) -> bool:
+        try:
+            one, plan = result()
+        except OutOfTime:
+            return False
+        self.runs.append(one)
+        if one.spacing <= min(run.spacing for run in self.runs):
+            self.plan = plan
+        return True
+
+    def _fits(self, spacing: float) -> bool:
+        return not self.runs or self.seconds(spacing) <= self.left()
+
+    def seconds(self, spacing: float) -> float:
+        """Wall-clock seconds of a run: CPU time, and as much more as the machine has taken so far."""
+        return Cost(self.runs).seconds(spacing) * self.pace()
+
+    def pace(self) -> float:
+        spent = sum(run.cpu_seconds for run in self.runs)
+        return max(1.0, self.waited / spent) if spent > 0 else 1.0
+
+    def done(self) -> set[tuple[float, int]]:
+        return {(run.spacing, run.seed) for run in self.runs}
+
+
+def _choose(study: _Study, sides: Sides, seeds: int) -> list[float]:
+    """The finest ladder that the budget has room for, with two runs of each spacing at least; else the error says what it
+    takes."""
+    room = KEPT_BACK * study.left() * study.workers
+    best: tuple[float, list[float]] | None = None
+    least = math.inf
+    for runs in range(seeds, 1, -1):  # rather fewer runs than none at all
+        for finest in range(sides.coarsest + 2, sides.finest + 1):
+            for levels in (LEVELS, 3):
+                ladder = [sides.spacing(n) for n in sides.ladder(finest, levels)]
+                if len(ladder) < 3:
+                    continue
+                each = sum(study.seconds(h) for h in ladder)
+                least = min(least, 2 * each)
+                worth = math.log(finest) - ROUNDED * sides.rounded(ladder[-1]) + 0.1 * len(ladder)
+                if runs * each <= room and (best is None or worth > best[0]):
+                    best = worth, ladder
+        if best is not None:
+            break
+    if best is None:
+        spent = study.budget - study.left()
+        raise ArgumentError(f"budget = {study.budget:g} s: two runs at each of three spacings do not fit in: expected some "
+                            f"{spent + least / study.workers / KEPT_BACK:.2g} s at least, or a shorter end")
+    return best[1]
+
+
+def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accuracy: float = 0.05, *, end: float | None = None,
+           spacings: Sequence[float] | None = None, seeds: int = 4, quantities: Mapping[str, Quantity] | None = None,
+           of: Sequence[str] | None = None, workers: int = 1, progress: bool = False) -> Report:
+    """Error against run time of one's own scene: what each spacing errs by and costs, and which one is enough.
+
+        report = granperi.report("collapse.toml", budget=60, accuracy=0.05)
+        print(report)
+        report.write("collapse.html")  # one page with pictures, or .json
+
+    Runs the scene at three or four spacings, several times each, within `budget` [s of wall-clock time]. The runs of one
+    spacing begin with particles 0.01 spacings beside each other's (or by the scene's own jitter): what they differ by is chance.
+    From the means follow the observed order and the limit of zero spacing, and from both the error of one run, which holds in 9
+    of 10 cases (docs/report.md). What does not converge is said to.
+
+    accuracy: relative error of one run or of the mean of a few, for which Report.recommendation names spacing, number of runs
+    and cost; of: the quantities that it is about ["peak_height", "width_90"]. end [s]: of the runs [that of the scene].
+    spacings [m]: at least three [as fine as the budget allows, down to half of the scene's spacing, so that the columns' sides
+    are whole numbers of them as far as possible]. seeds: runs of each spacing, 2 to 100. quantities: more of them, {"name":
+    function of the Simulation at its end}. workers: runs beside each other, 1 to 64. progress: a bar (tqdm).
+
+    ArgumentError: a budget in which not two runs at each of three spacings are possible; a scene with particles given one by
+    one, whose spacing is theirs.
+    """
+    scene = scene_of(scene)
+    end = scene.run.end if end is None else number("end", end)
+    budget, accuracy = number("budget", budget), number("accuracy", accuracy)
+    seeds, workers = whole("seeds", seeds), whole("workers", workers)
+    for name, value, low, high in (("end", end, 0, math.inf), ("budget", budget, 0, math.inf), ("accuracy", accuracy, 0, 1)):
+        if not low < value < high:
+            raise ArgumentError(f"{name} = {value:g}: expected a number above {low}"
+                                + (f" and below {high:g}" if high < math.inf else ""))
+    if not (2 <= seeds <= 100 and 1 <= workers <= 64):
+        raise ArgumentError(f"seeds = {seeds}, workers = {workers}: expected 2 to 100 and 1 to 64")
+    own = checked({} if quantities is None else quantities)
+    wanted = _names(of, own)
+    if scene.fixed_spacing:
+        raise ArgumentError(f"{scene.name}: has particles given one by one, whose spacing is theirs: expected a scene that can "
+                            "be built at any spacing")
+    sides = Sides(scene)
+    named = None if spacings is None else given(spacings)
+    bar = _Bar(budget, progress)
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            study = _Study(scene, end, budget, own, workers, bar)
+            start = _start(scene, named[-1] if named else scene.config.spacing, own)
+            ladder = _ladder(study, sides, named, seeds)
+            jobs = [(h, seed) for seed in range(1, seeds + 1) for h in ladder]
+            done = study.done()
+            study.run([job for job in jobs if job not in done])
+    finally:
+        bar.close()
+    levels = {h: [run for run in study.runs if run.spacing == h] for h in ladder}
+    enough = [h for h, runs in levels.items() if len(runs) >= 2]
+    if len(enough) < 3:
+        raise ArgumentError(f"budget = {budget:g} s: not two runs at each of three spacings were done: expected some "
+                            f"{1.3 * budget - 0.3 * study.left():.2g} s, or {1.3 * 2 * sum(map(study.seconds, ladder)):.2g} s; the "
+                            "machine may be busy")
+    return Report(scene, end, accuracy, budget, time.monotonic() - study.begin, study.runs, enough, start, study.plan, own,
+                  tuple(dict.fromkeys(str(one.message) for one in caught)), wanted)
+
+
+def _names(of: Sequence[str] | None, own: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The quantities that an accuracy is asked of."""
+    if of is None:
+        return ASKED
+    if isinstance(of, str) or not isinstance(of, Sequence) or not of:
+        raise ArgumentTypeError(f"of = {of!r:.80}: expected a list of names of quantities")
+    for name in of:
+        if name not in (valid := [*QUANTITIES, REST, *own]):
+            raise ArgumentError(f"of: {name!r:.80}: {near_match(str(name), valid)}")
+    return tuple(of)
+
+
+def _start(scene: Scene, spacing: float, own: Mapping[str, Quantity]) -> dict[str, float]:
+    """What the quantities are before the first step."""
+    with scene.build(spacing) as sim:
+        if not sim.n_particles:
+            raise ArgumentError(f"{scene.name}: has no particles to report on")
+        return {**standard(sim.state), **dict.fromkeys(own, math.nan)}
+
+
+def _ladder(study: _Study, sides: Sides, named: list[float] | None, seeds: int) -> list[float]:
+    if named is not None:
+        return named
+    coarsest = sides.coarsest
+    study.run([(sides.spacing(coarsest), 1)])
+    if not study.runs:
+        raise ArgumentError(f"budget = {study.budget:g} s: not one run at a spacing of {sides.spacing(coarsest):.3g} m was done: "
+                            "expected many times more, or a shorter end")
+    if study.seconds(sides.spacing(2 * coarsest)) < 0.1 * study.left():
+        study.run([(sides.spacing(2 * coarsest), 1)])
+    return _choose(study, sides, seeds)

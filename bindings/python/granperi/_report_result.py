@@ -1,0 +1,280 @@
+"""What a report says: its tables, the recommendation, and how it is written."""
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import os
+from typing import Any, Mapping, Sequence
+
+from ._errors import ArgumentError, FileError, StateError, near_match, number
+from ._library import lib, text_of
+from ._objects import Config
+from ._report_ladder import Cost, Sides
+from ._report_runs import QUANTITIES, REST, Measured
+from ._report_statistics import CONVERGES, DIVERGES, IRREGULAR, UNSURE, Convergence
+from ._scene import Scene
+from ._state import MARKS, PlanEntry
+
+FORMAT = 1  # of the JSON file
+MAIN = ("peak_height", "width_50", "width_90", "width_98", REST)
+ASKED = ("peak_height", "width_90")
+MOST_RUNS = 16  # that a recommendation asks for
+OTHERS = {REST: ("s", "time since when the kinetic energy has been below 1e-4 of its largest")}
+NOT_REACHED = "not in every run"  # a quantity that some runs do not have
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    """One spacing: run (runs > 0) or forecast. errors: of one run, by quantity, in its unit, in 9 of 10 cases not more."""
+
+    spacing: float
+    runs: int
+    particles: int
+    cpu_seconds: float
+    errors: dict[str, float]
+
+
+@dataclasses.dataclass(frozen=True)
+class Recommendation:
+    """What reaches an accuracy at the least cost: the mean of `runs` runs at this spacing. cpu_seconds: of all of them.
+
+    runs 0: nothing does that the report can tell of, for this reason.
+    """
+
+    accuracy: float
+    of: tuple[str, ...]
+    spacing: float
+    runs: int
+    cpu_seconds: float
+    errors: dict[str, float]
+    reason: str
+
+    def config(self, config: Config) -> Config:
+        """`config` with the recommended spacing. StateError: nothing is recommended."""
+        if not self.runs:
+            raise StateError(f"nothing is recommended: {self.reason}")
+        return config.replace(spacing=self.spacing)
+
+    def __str__(self) -> str:
+        what = " and ".join(self.of)
+        if not self.runs:
+            return f"{what} within {100 * self.accuracy:g} %: {self.reason}"
+        errors = ", ".join(f"{name} {100 * error:.1f} %" for name, error in self.errors.items())
+        runs = "one run" if self.runs == 1 else f"the mean of {self.runs} runs"
+        return (f"{what} within {100 * self.accuracy:g} %: {runs} with a spacing of {self.spacing:.4g} m, "
+                f"{self.cpu_seconds:.2g} CPU s ({errors}){'; ' + self.reason if self.reason else ''}")
+
+
+class Report:
+    """Error against run time of a scene; print() shows it, write() keeps it, see granperi.report.
+
+    runs: every run (spacing, seed, particles, steps, CPU seconds, values). rows: from the coarsest to the finest spacing, run or
+    forecast. convergence: by quantity; scale: what its relative errors are relative to. recommendation: for the accuracy asked for.
+    plan: stages and fields of the finest run. warnings: what the library said of the scene.
+    """
+
+    def __init__(self, scene: Scene, end: float, accuracy: float, budget: float, seconds: float, runs: Sequence[Measured],
+                 spacings: Sequence[float], start: Mapping[str, float], plan: Sequence[PlanEntry], own: Mapping[str, Any],
+                 warnings: Sequence[str], of: Sequence[str]):
+        self.name, self.end, self.accuracy, self.budget, self.seconds = scene.name, end, accuracy, budget, seconds
+        self.runs, self.plan, self.warnings = tuple(runs), tuple(plan), tuple(warnings)
+        self.spacings = tuple(sorted(spacings, reverse=True))
+        self.cost = Cost(self.runs)
+        self.own = tuple(own)
+        self._config, self._start, self._sides = scene.config, start, Sides(scene)
+        self.convergence: dict[str, Convergence] = {}
+        for name in (*MAIN, *self.own, *MARKS.values()):
+            values = {h: [run.values[name] for run in self.runs if run.spacing == h] for h in self.spacings}
+            if all(math.isfinite(value) for some in values.values() for value in some):
+                self.convergence[name] = Convergence(values)
+        self.scale = {name: self._scale(name) for name in self.convergence}
+        self.recommendation = self.recommend(accuracy, of)
+        finer = [self.spacings[-1] / factor for factor in (1.4, 2.0, 2.8)]
+        self.rows = [self._row(h) for h in (*self.spacings, *finer)]
+
+    # ------------------------------------------------------------------------------------------ what it says
+
+    def _scale(self, name: str) -> float:
+        """Heights, times and own quantities are relative to themselves, widths to what they have changed by where that is much
+        (a run-out), and the marks of the mass as the width of its middle 90 %."""
+        if name in MARKS.values():
+            return self._scale("width_90") if "width_90" in self.convergence else 0.0
+        value = abs(self.convergence[name].limit)
+        if name.startswith("width"):
+            change = abs(self.convergence[name].limit - self._start[name])
+            return change if change > 0.25 * value else value
+        return value
+
+    def error(self, name: str, spacing: float, runs: int = 1) -> float:
+        """Relative error [1] of the mean of so many runs at any spacing [m], as large as it is in one of ten cases."""
+        if name not in self.convergence:
+            raise ArgumentError(f"name = {name!r}: {near_match(name, list(self.convergence))}")
+        scale = self.scale[name]
+        return self.convergence[name].error(spacing, runs) / scale if scale > 0 else math.nan
+
+    def _row(self, spacing: float) -> Row:
+        there = [run for run in self.runs if run.spacing == spacing]
+        particles = there[0].particles if there else round(self.cost.particles(spacing))
+        seconds = sum(run.cpu_seconds for run in there) / len(there) if there else self.cost.seconds(spacing)
+        return Row(spacing, len(there), particles, seconds,
+                   {name: one.error(spacing) for name, one in self.convergence.items()})
+
+    def recommend(self, accuracy: float, of: Sequence[str] = ASKED) -> Recommendation:
+        """The cheapest spacing and number of runs by which these quantities err by less than `accuracy` (relative) in 9 of 10
+        cases: from the coarsest spacing that was run to a fourth of the finest one."""
+        accuracy = number("accuracy", accuracy)
+        if not 0 < accuracy < 1:
+            raise ArgumentError(f"accuracy = {accuracy:g}: expected a number above 0 and below 1")
+        of = tuple(of)
+
+        def none(reason: str) -> Recommendation:
+            return Recommendation(accuracy, of, math.nan, 0, math.nan, {}, reason)
+
+        for name in of:
+            if name not in self.convergence:
+                return none(f"{name} is {NOT_REACHED}: run longer, to a later end")
+            if self.convergence[name].verdict == DIVERGES:
+                return none(f"{name} does not converge: no spacing is fine enough")
+        best: Recommendation | None = None
+        for spacing in self._candidates():
+            each = self.cost.seconds(spacing)
+            for runs in range(1, MOST_RUNS + 1):
+                errors = {name: self.error(name, spacing, runs) for name in of}
+                if max(errors.values()) <= accuracy:
+                    if best is None or runs * each < best.cpu_seconds:
+                        best = Recommendation(accuracy, of, spacing, runs, runs * each, errors, self._because(spacing, of))
+                    break
+        if best is None:
+            least = self.spacings[-1] / 4
+            worst = max(of, key=lambda name: self.error(name, least))
+            return none(f"not even a spacing of {least:.3g} m, {self.cost.seconds(least):.2g} CPU s a run, is sure to: {worst} may "
+                        f"err by {100 * self.error(worst, least):.1f} %; a report with a larger budget knows more")
+        return best
+
+    def _candidates(self) -> list[float]:
+        wanted = [h for h in self.spacings]
+        n, last = self._sides.smallest / self.spacings[0], self._sides.smallest / self.spacings[-1]
+        wanted += [self._sides.spacing(k) for k in range(math.ceil(n), math.floor(4 * last) + 1)
+                   if self._sides.rounded(self._sides.spacing(k)) < 0.02]
+        return sorted(set(wanted), reverse=True)
+
+    def _because(self, spacing: float, of: Sequence[str]) -> str:
+        said = []
+        if spacing < 0.999 * self.spacings[-1]:
+            said.append("extrapolated: finer than what was run")
+        said += [f"{name} {verdict}" for name in of if (verdict := self.convergence[name].verdict) in (IRREGULAR, UNSURE)]
+        return ", ".join(said)
+
+    def advice(self) -> list[str]:
+        """What else saves time in this scene."""
+        said = []
+        share = self.cost.share_to_rest
+        if math.isfinite(share) and share < 0.9:
+            said.append(f"All rests after {100 * share:.0f} % of the CPU time: a run that ends there needs no more.")
+            if not self._config.sleep:
+                said.append("sleep = 1 leaves out of the work what rests.")
+        rounded = self._sides.rounded(self._config.spacing)
+        if rounded > 0.01:
+            said.append(f"The scene's spacing of {self._config.spacing:.4g} m rounds the side of a column by {100 * rounded:.1f} %: "
+                        "take a whole fraction of the sides.")
+        return said
+
+    def _judged(self, name: str) -> tuple[str, str]:
+        """Verdict and observed order, in words."""
+        if name not in self.convergence:
+            return NOT_REACHED, ""
+        one = self.convergence[name]
+        order = f"{one.order:.1f} ({one.order_range[0]:.2g} to {one.order_range[1]:.2g})"
+        return one.verdict, order if one.verdict in (CONVERGES, UNSURE) else ""
+
+    def __str__(self) -> str:
+        names = [name for name in (*MAIN, *self.own) if name in self.convergence]
+        lines = [f"{self.name} to {self.end:g} s: {len(self.runs)} runs in {self.seconds:.3g} s",
+                 "relative error of one run, in 9 of 10 cases less:",
+                 f"{'spacing (m)':>12} {'particles':>9} {'CPU (s)':>8} {'runs':>4}" + "".join(f" {name:>11}" for name in names)]
+        for row in self.rows:
+            lines.append(f"{row.spacing:>12.4g} {row.particles:>9} {row.cpu_seconds:>8.2g} {row.runs or '-':>4}" + "".join(
+                f" {100 * row.errors[name] / self.scale[name]:>9.1f} %" if self.scale[name] > 0 else f" {'-':>11}"
+                for name in names))
+        lines.append(f"{'':12} {'limit':>12} {'+-':>9} {'scatter':>9}  observed order")
+        for name in (*MAIN, *self.own):
+            verdict, order = self._judged(name)
+            if name not in self.convergence:
+                lines.append(f"{name:<12} {'':>32}  {verdict}")
+                continue
+            one = self.convergence[name]
+            lines.append(f"{name:<12} {one.limit:>12.5g} {one.limit_error:>9.2g} {one.levels[-1].scatter:>9.2g}  {verdict}"
+                         + (f", order {order}" if order else ""))
+        return "\n".join([*lines, str(self.recommendation), *self.advice()])
+
+    # --------------------------------------------------------------------------------------------- writing
+
+    def data(self) -> dict[str, Any]:
+        """All of it as numbers, texts, lists and dicts, as in the JSON file; what is not there is None."""
+        quantities = {}
+        for name in (*MAIN, *self.own, *MARKS.values()):
+            unit, meaning = QUANTITIES[name][:2] if name in QUANTITIES else OTHERS.get(name, ("", "the host's own"))
+            verdict, _ = self._judged(name)
+            entry: dict[str, Any] = {"unit": unit, "meaning": meaning, "verdict": verdict}
+            if name in self.convergence:
+                one = self.convergence[name]
+                entry |= {"limit": one.limit, "limit_error": one.limit_error, "scale": self.scale[name], "order": one.order,
+                          "order_range": list(one.order_range),
+                          "levels": [{"spacing": level.spacing, "runs": level.runs, "mean": level.mean, "scatter": level.scatter,
+                                      "bias": one.bias(level.spacing), "error_of_mean": one.error(level.spacing, level.runs)}
+                                     for level in one.levels]}
+            quantities[name] = entry
+        stages = [{"name": entry.name, "seconds": entry.seconds, "calls": entry.calls} for entry in self.plan
+                  if entry.kind == 0 and entry.active]
+        return _plain({
+            "format": FORMAT, "granperi": text_of(lib.gp_version_string()), "scene": self.name, "end": self.end,
+            "budget": self.budget, "seconds": self.seconds, "spacings": list(self.spacings),
+            "rows": [dataclasses.asdict(row) for row in self.rows], "quantities": quantities,
+            "recommendation": dataclasses.asdict(self.recommendation), "advice": self.advice(), "warnings": list(self.warnings),
+            "stages": stages,
+            "left_out": [{"name": entry.name, "kind": "field" if entry.kind else "stage", "reason": entry.reason}
+                         for entry in self.plan if not entry.active],
+            "runs": [dataclasses.asdict(run) for run in self.runs]})
+
+    def html(self) -> str:
+        """One page with pictures, which needs nothing beside it."""
+        from ._report_html import page
+
+        return page(self)
+
+    def _repr_html_(self) -> str:
+        from ._report_html import body
+
+        return body(self)
+
+    def write(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
+        """Writes the report to a name that ends in .html or .json; beside its place first, then renamed. FileError: it is there,
+        and overwrite is false."""
+        path = os.fspath(path)
+        if path.endswith(".html"):
+            text = self.html()
+        elif path.endswith(".json"):
+            text = json.dumps(self.data(), indent=1, allow_nan=False) + "\n"
+        else:
+            raise ArgumentError(f"path = {path!r:.200}: expected a name that ends in .html or .json")
+        if not overwrite and os.path.exists(path):
+            raise FileError(f"{path}: exists: expected another name, or overwrite=True")
+        part = f"{path}.part-{os.getpid()}"
+        try:
+            with open(part, "w", encoding="utf-8") as file:
+                file.write(text)
+            os.replace(part, path)
+        except OSError as error:
+            raise FileError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def _plain(value: Any) -> Any:
+    """NaN and infinity are no JSON."""
+    if isinstance(value, dict):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

@@ -1,0 +1,238 @@
+"""granperi.report: what is run, what is said, and how it is written."""
+import json
+import math
+import re
+import types
+
+import numpy as np
+import pytest
+
+import granperi
+from granperi import _report, _report_ladder, _report_runs
+
+COLLAPSE = """\
+[config]
+spacing = 0.0025
+[run]
+end = 0.4
+[[column]]
+x_min = -0.04
+width = 0.08
+height = 0.05
+[[floor]]
+x_left = -0.3
+x_right = 0.3
+"""
+LIMIT = {"peak_height": 0.033, "width_50": 0.07, "width_90": 0.17, "width_98": 0.21}
+
+
+class Machine:
+    """A clock and runs on paper: the error goes as the spacing to the power of 1.5, the time with its cube."""
+
+    def __init__(self, monkeypatch, pace=1.0, seconds=0.4):
+        self.now, self.pace, self.seconds, self.asked = 1000.0, pace, seconds, []
+        self.rng = np.random.default_rng(1)
+        monkeypatch.setattr(_report, "time", types.SimpleNamespace(monotonic=lambda: self.now))
+        monkeypatch.setattr(_report, "measure", self.measure)
+
+    def measure(self, scene, spacing, seed, end, quantities, deadline):
+        fine = 0.0025 / spacing
+        particles, steps = round(640 * fine**2), round(5000 * fine)
+        cpu = self.seconds * fine**3
+        self.asked.append((spacing, seed))
+        self.now += cpu * self.pace
+        if self.now > deadline():
+            self.now = deadline()
+            raise _report_runs.OutOfTime
+        values = {name: value * (1 - 2e-2 * fine**-1.5 + 1e-3 * self.rng.normal()) for name, value in LIMIT.items()}
+        values |= {"rest_time": 0.3 + 0.001 * self.rng.normal(), **dict.fromkeys(granperi._state.MARKS.values(), 0.01)}
+        values |= dict.fromkeys(quantities, 1 / fine)
+        plan = [granperi.PlanEntry("force", "always", 0, True, 0, cpu, steps),
+                granperi.PlanEntry("fluidity", "no amplitude", 0, False, 0, 0, 0)]
+        return _report_runs.Measured(spacing, seed, particles, steps, cpu, 0.6 * cpu, values), plan
+
+
+@pytest.fixture
+def scene():
+    return granperi.Scene.parse(COLLAPSE, "collapse.toml")
+
+
+@pytest.fixture
+def made(monkeypatch, scene):
+    Machine(monkeypatch)
+    return granperi.report(scene, budget=20, accuracy=0.03)
+
+
+@pytest.mark.parametrize("budget", [2, 5, 20, 300])
+@pytest.mark.parametrize("pace", [1.0, 5.0])
+def test_the_budget_is_kept_and_used(monkeypatch, scene, budget, pace):
+    machine = Machine(monkeypatch, pace)
+    begin = machine.now
+    found = granperi.report(scene, budget=budget * pace)
+    assert machine.now - begin <= budget * pace
+    # What four runs at four spacings leave is less than what a finer ladder would take; at half the scene's spacing it ends.
+    assert machine.now - begin > 0.35 * budget * pace or min(found.spacings) == pytest.approx(0.00125)
+    assert all(sum(run.spacing == h for run in found.runs) >= 2 for h in found.spacings)
+    across = [0.05 / h for h in found.spacings]
+    assert across == pytest.approx([round(n) for n in across])  # the columns' smallest side is a whole number of each
+
+
+def test_a_budget_that_is_too_small_says_what_it_takes(monkeypatch, scene):
+    machine = Machine(monkeypatch)
+    with pytest.raises(granperi.ArgumentError, match=r"budget = 0.1 s: two runs at each of three spacings do not fit in: expected "
+                                                     r"some (\S+) s at least") as error:
+        granperi.report(scene, budget=0.1)
+    enough = float(re.search(r"some (\S+) s", str(error.value)).group(1))
+    machine.now += 1
+    assert len(granperi.report(scene, budget=1.1 * enough).spacings) >= 3
+    with pytest.raises(granperi.ArgumentError, match="not one run at a spacing of .* was done"):
+        granperi.report(scene, budget=1e-6)
+
+
+def test_a_run_ends_when_the_time_is_up(scene):
+    with pytest.raises(_report_runs.OutOfTime):
+        _report_runs.measure(scene, 0.01, 1, 0.4, deadline=lambda: -math.inf)
+
+
+def test_what_is_recommended_reaches_the_accuracy(made):
+    chosen = made.recommendation
+    assert chosen.runs >= 1 and chosen.of == ("peak_height", "width_90")
+    assert all(error <= 0.03 for error in chosen.errors.values())
+    assert chosen.cpu_seconds == pytest.approx(chosen.runs * made.cost.seconds(chosen.spacing))
+    # The law on paper: 2 % at 2.5 mm of the value, of the width's change since the start nearly twice that.
+    share = 0.17 / made.scale["width_90"]
+    assert 0.02 * share * (chosen.spacing / 0.0025) ** 1.5 <= 0.03
+    fine = made.recommend(0.01)
+    assert fine.spacing < chosen.spacing and fine.cpu_seconds > chosen.cpu_seconds
+    assert f"spacing of {chosen.spacing:.4g} m" in str(made)
+    assert chosen.config(granperi.Config(horizon=3)) == granperi.Config(horizon=3, spacing=chosen.spacing)
+    hopeless = made.recommend(1e-6)
+    assert hopeless.runs == 0 and "not even a spacing of" in hopeless.reason
+    with pytest.raises(granperi.StateError, match="nothing is recommended: not even a spacing"):
+        hopeless.config(granperi.Config())
+
+
+def test_the_forecast_of_the_cost_is_that_of_its_law(made):
+    for spacing in (0.0025, 0.001, 0.0005):
+        assert made.cost.seconds(spacing) == pytest.approx(0.4 * (0.0025 / spacing) ** 3, rel=0.05)
+
+
+def test_cost_knows_what_surface_and_volume_take():
+    def run(n):  # 100 ns by the volume, and as much again by the surface at 100 particles
+        return _report_runs.Measured(1 / n, 1, n * n, 50 * n, 1e-9 * (100 + 1000 / n) * n * n * 50 * n, math.nan, {})
+
+    cost = _report_ladder.Cost([run(n) for n in (10, 14, 20)])
+    for n in (20, 40, 80):
+        assert cost.seconds(1 / n) == pytest.approx(run(n).cpu_seconds, rel=0.05)
+        assert cost.steps(1 / n) == pytest.approx(50 * n) and cost.particles(1 / n) == pytest.approx(n * n)
+
+
+def test_what_does_not_converge_is_not_recommended(monkeypatch, scene):
+    Machine(monkeypatch)
+    found = granperi.report(scene, budget=20, quantities={"grows": lambda sim: 0.0}, of=["grows"])
+    found.convergence["grows"].verdict = granperi._report_statistics.DIVERGES
+    assert "does not converge" in found.recommend(0.1, ["grows"]).reason
+    assert "grows" in str(found) and "grows" in found.html()
+
+
+def test_json_has_all_numbers(made, tmp_path):
+    made.write(tmp_path / "report.json")
+    data = json.loads((tmp_path / "report.json").read_text())
+    assert data["format"] == 1 and data["granperi"] == granperi.__version__ and data["end"] == 0.4
+    assert set(data) == {"format", "granperi", "scene", "end", "budget", "seconds", "spacings", "rows", "quantities",
+                         "recommendation", "advice", "warnings", "stages", "left_out", "runs"}
+    assert set(data["quantities"]) == {"peak_height", "width_50", "width_90", "width_98", "rest_time", "x_q01", "x_q05", "x_q25",
+                                       "x_q50", "x_q75", "x_q95", "x_q99"}
+    peak = data["quantities"]["peak_height"]
+    assert set(peak) == {"unit", "meaning", "verdict", "limit", "limit_error", "scale", "order", "order_range", "levels"}
+    assert [level["spacing"] for level in peak["levels"]] == data["spacings"] == sorted(data["spacings"], reverse=True)
+    assert abs(peak["limit"] - LIMIT["peak_height"]) <= peak["limit_error"]
+    assert len(data["runs"]) == len(made.runs) and data["runs"][0]["values"]["width_90"] > 0
+    assert data["left_out"] == [{"name": "fluidity", "kind": "stage", "reason": "no amplitude"}]
+    assert sum(row["runs"] > 0 for row in data["rows"]) == len(made.spacings) and len(data["rows"]) == len(made.spacings) + 3
+
+
+def test_the_page_needs_nothing_beside_it(made, tmp_path):
+    made.write(tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text()
+    assert page.startswith("<!DOCTYPE html>") and "nan" not in page.lower().replace("finance", "")
+    assert not re.search(r"(src|href)\s*=|url\(|<script|@import", page)
+    assert {address for address in re.findall(r"https?://[^\"'<> ]+", page)} == {"http://www.w3.org/2000/svg"}
+    assert page.count("<svg") == 7 and "no amplitude" in page and "within 3 %" in page
+    assert made._repr_html_() in page
+    with pytest.raises(granperi.ArgumentError, match=r"expected a name that ends in .html or .json"):
+        made.write(tmp_path / "report.pdf")
+    with pytest.raises(granperi.FileError, match="report.html: exists: expected another name, or overwrite=True"):
+        made.write(tmp_path / "report.html")
+    made.write(tmp_path / "report.html", overwrite=True)
+    with pytest.raises(granperi.FileError, match="cannot be written"):
+        made.write(tmp_path / "nowhere" / "report.html")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["report.html"]
+
+
+def test_a_scene_for_real(scene):
+    found = granperi.report(scene, 600, 0.2, end=0.3, spacings=[0.01, 0.005, 0.00714], seeds=2, workers=2,
+                            quantities={"mean_y": lambda sim: sim.y.mean()}, of=["mean_y"])
+    assert found.spacings == (0.01, 0.00714, 0.005) and len(found.runs) == 6
+    assert {run.seed for run in found.runs} == {1, 2} and len({run.values["peak_height"] for run in found.runs}) == 6
+    first = next(run for run in found.runs if (run.spacing, run.seed) == (0.01, 1))
+    with granperi.Simulation(spacing=0.01, jitter=0.01, seed=1) as sim:
+        sim.add_column(x_min=-0.04, width=0.08, height=0.05)
+        sim.add_plate(granperi.Plate.floor(-0.3, 0.3))
+        sim.run(0.3)
+        assert first.values["peak_height"] == sim.state.peak_height and first.values["mean_y"] == sim.y.mean()
+        assert first.values["width_90"] == sim.state.x_q95 - sim.state.x_q05 and first.steps == sim.clock.step
+    assert found.recommendation.of == ("mean_y",) and "mean_y" in str(found)
+    assert any("rounded to" in text for text in found.warnings)  # 0.08 and 0.05 m in 7.14 mm
+    names = [entry.name for entry in found.plan if entry.active and entry.kind == 0]
+    assert "force" in names and all(entry.seconds >= 0 for entry in found.plan)
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ({"budget": 0}, "budget = 0: expected a number above 0"),
+    ({"budget": math.inf}, "budget = inf"),
+    ({"accuracy": 1}, "accuracy = 1: expected a number above 0 and below 1"),
+    ({"end": -1}, "end = -1"),
+    ({"seeds": 1}, "seeds = 1, workers = 1: expected 2 to 100 and 1 to 64"),
+    ({"workers": 0}, "workers = 0"),
+    ({"spacings": [0.01, 0.005]}, "expected at least three different numbers above 0 m"),
+    ({"spacings": 0.01}, "spacings = 0.01: expected several numbers in m"),
+    ({"spacings": [0.01, 0.0099, 0.005]}, "spacings = 0.01 and 0.0099 m: expected spacings at least a tenth apart"),
+    ({"quantities": [1]}, "expected a dict of names and functions"),
+    ({"quantities": {"peak_height": len}}, "the report has a quantity of this name"),
+    ({"quantities": {"n": 3}}, r"quantities\['n'\] = 3: expected a name and a function"),
+    ({"of": ["peak"]}, "of: 'peak': did you mean 'peak_height'"),
+    ({"of": "peak_height"}, "of = 'peak_height': expected a list of names"),
+])
+def test_mistakes_are_told_before_anything_runs(monkeypatch, scene, arguments, message):
+    machine = Machine(monkeypatch)
+    with pytest.raises(granperi.ArgumentError, match=message):
+        granperi.report(scene, **arguments)
+    assert not machine.asked
+
+
+def test_scenes_that_cannot_be_refined(scene):
+    scene.add("particles", x=[0.0], y=[1.0])
+    with pytest.raises(granperi.ArgumentError, match="particles given one by one, whose spacing is theirs"):
+        granperi.report(scene)
+    with pytest.raises(granperi.ArgumentError, match="nothing: has no particles to report on"):
+        granperi.report(granperi.Scene(name="nothing"))
+
+
+def test_a_quantity_that_is_no_number(scene):
+    with pytest.raises(granperi.ArgumentTypeError, match=r"quantities\['n'\]: returned None: expected a number"):
+        _report_runs.measure(scene, 0.01, 1, 0.01, {"n": lambda sim: None})
+
+
+def test_from_the_command_line(python, tmp_path):
+    (tmp_path / "collapse.toml").write_text(COLLAPSE)
+    result = python("-m", "granperi", "report", "collapse.toml", "--budget", "600", "--end", "0.1", "--seeds", "2", "--spacings",
+                    "0.01", "0.007", "0.005", "--accuracy", "0.2", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert "relative error of one run" in result.stdout and "within 20 %" in result.stdout
+    assert json.loads((tmp_path / "collapse_report.json").read_text())["seconds"] < 600
+    assert (tmp_path / "collapse_report.html").stat().st_size > 10000
+    again = python("-m", "granperi", "report", "collapse.toml", cwd=tmp_path)  # before anything is run
+    assert again.returncode == 1 and "collapse_report.html: exists: name another one with --output, or replace it" in again.stderr
+    wrong = python("-m", "granperi", "report", "collapse.toml", "--output", "report.pdf", cwd=tmp_path)
+    assert wrong.returncode == 2 and "expected a name that ends in .html or .json" in wrong.stderr
