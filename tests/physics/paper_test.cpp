@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "../support/ensemble.hpp"
 #include "../support/scene.hpp"
 
 using namespace test;
@@ -91,7 +92,7 @@ TEST(Paper, PeakIsThePrintedOneWithThePrintedStress) {
     }
 }
 
-TEST(Paper, LocalModelIsFlatterAndFasterThanTheForceStates) {
+TEST(Paper, LocalModelIsFlatterThanTheForceStates) {
     gp_config config = paper(GP_PRESET_PAPER);
     config.friction_factor = 1; // as the local model
     const gp_state nonlocal = Scene(config).at(0.42), local = Scene(paper(GP_PRESET_PAPER_LOCAL)).at(0.42);
@@ -101,6 +102,19 @@ TEST(Paper, LocalModelIsFlatterAndFasterThanTheForceStates) {
         EXPECT_TRUE(std::isfinite(state.energy_error));
         EXPECT_LT(std::abs(state.energy_error), 0.1 * Collapse::energy);
     }
+}
+
+// One run is 1.5 to 3 times as fast (2.24 +- .42 in three, 2.42 +- .11 in eight with a tenth of the jitter): a bound on one run says
+// nothing.
+TEST(Paper, LocalModelIsFasterOnAverage) {
+    Sample ratio;
+    for (int k = 0; k < 3; ++k) {
+        gp_config config = paper(GP_PRESET_PAPER);
+        config.friction_factor = 1;
+        const double nonlocal = Scene(shaken(config, k)).at(0.42).rms_speed;
+        ratio.add(Scene(shaken(paper(GP_PRESET_PAPER_LOCAL), k)).at(0.42).rms_speed / nonlocal);
+    }
+    expect_mean_above("speed of the local model over the non-local one's", ratio, 1);
 }
 
 TEST(Paper, IsTheSameForAnyNumberOfThreads) {
