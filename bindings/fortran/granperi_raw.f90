@@ -501,7 +501,8 @@ module granperi_raw
     type, bind(c) :: gp_plan_entry
         type(c_ptr) :: name !! static text
         type(c_ptr) :: reason !! static text: why it is active or left out
-        integer(c_int32_t) :: kind !! 0: stage, in the order in which they run; 1: field or table
+        integer(c_int32_t) :: kind
+            !! 0: stage, in the order in which they run; 1: field or table; 2: between processes (gp_mpi.h)
         integer(c_int32_t) :: active !! 1, or 0 if this scene leaves it out
         integer(c_int64_t) :: bytes !! of memory held; 0 for a stage
         real(c_double) :: seconds !! wall-clock time spent so far; 0 for a field

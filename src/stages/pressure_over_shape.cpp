@@ -38,6 +38,8 @@ void pressure_over_shape(World &world) {
         world.images.copy(p.stressed);
     if (world.walls.in_reach())
         world.images.copy({&p.pressure, &p.density, &p.sxx, &p.sxy});
+    else if (!world.crowded.empty()) // collisions ask for it
+        world.images.copy(p.pressure);
 }
 
 } // namespace gp::stages

@@ -35,7 +35,7 @@ TEST(AspectRatio, RunsOutAsTheScalingLawsSay) {
         int across, up, runs;
     };
     for (const Case c :
-         {Case{80, 8, 6}, Case{32, 16, 3}, Case{16, 16, 3}, Case{12, 24, 3}, Case{8, 40, 4}, Case{6, 60, 4}}) {
+         {Case{80, 8, 16}, Case{32, 16, 3}, Case{16, 16, 3}, Case{12, 24, 3}, Case{8, 40, 4}, Case{6, 60, 4}}) {
         const double a = static_cast<double>(c.up) / c.across;
         SCOPED_TRACE(a);
         Sample run_out;

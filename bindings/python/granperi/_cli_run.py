@@ -75,8 +75,8 @@ def _run(options: argparse.Namespace) -> None:
     output = scene.run.output = _output(options, scene)
     progress = options.progress if options.progress is not None else sys.stderr.isatty() and has_tqdm()
     if options.mpi is not None:
-        if options.resume or options.csv or scene.run.until != "end":
-            raise ArgumentError("--mpi: expected no --resume, no --csv and until = \"end\"")
+        if options.resume or options.csv or scene.run.until != "end" or scene.has_probes():
+            raise ArgumentError("--mpi: expected no --resume, no --csv, no [[probe]] and until = \"end\"")
         if output:
             require_free(output, options.overwrite)
         _mpi.run(scene, options.mpi, output)

@@ -366,7 +366,8 @@ MEANINGS: dict[str, dict[str, tuple[str, str]]] = {
     "gp_plan_entry": {
         "name": ("str", "static text"),
         "reason": ("str", "static text: why it is active or left out"),
-        "kind": ("int", "0: stage, in the order in which they run; 1: field or table"),
+        "kind": ("int",
+            "0: stage, in the order in which they run; 1: field or table; 2: between processes (gp_mpi.h)"),
         "active": ("int", "1, or 0 if this scene leaves it out"),
         "bytes": ("int", "of memory held; 0 for a stage"),
         "seconds": ("float", "wall-clock time spent so far; 0 for a field"),

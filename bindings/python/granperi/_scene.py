@@ -180,6 +180,10 @@ class Scene:
     def _probes(self) -> list[_Part]:
         return [part for part in self._parts if part.kind == "probe"]
 
+    def has_probes(self) -> bool:
+        """Whether it names time series to be recorded."""
+        return bool(self._probes())
+
     def add_probes(self, sim: Simulation) -> list[Probe]:
         """The probes of the scene, in a simulation of it; see Simulation.add_probe."""
         probes = []
