@@ -18,6 +18,8 @@ trap 'rm -rf "$work"' EXIT
 . "$(dirname "$0")/consumer.sh"
 # shellcheck source=tests/package/consumer_fortran.sh
 . "$(dirname "$0")/consumer_fortran.sh"
+# shellcheck source=tests/package/consumer_mpi.sh
+. "$(dirname "$0")/consumer_mpi.sh"
 
 prefix=$work/first
 "$CMAKE" --install "$build" --prefix "$prefix" >"$work/install.log" 2>&1 ||
@@ -26,7 +28,10 @@ for file in include/granperi/gp.h "$libdir/libgranperi.so" "$libdir/libgranperi.
     "$libdir/pkgconfig/granperi.pc" "$libdir/cmake/granperi/granperi-config.cmake"; do
     [ -e "$prefix/$file" ] || fail "$file is not installed"
 done
-extra=$(find "$prefix" -name '*.h*' ! -path "$prefix/include/granperi/gp.h")
+several= # processes, if the build has them
+grep -q '^GRANPERI_MPI:BOOL=ON' "$build/CMakeCache.txt" && several=yes
+extra=$(find "$prefix" -name '*.h*' ! -path "$prefix/include/granperi/gp.h" \
+    ! -path "$prefix/include/granperi/${several:+gp_mpi.h}")
 [ -z "$extra" ] || fail "a header that is not public is installed: $extra"
 
 # Nothing may know where it was built or installed.
@@ -46,7 +51,7 @@ if [ -n "$FC" ]; then
     use_fortran_pkg_config "$prefix" "$libdir"
     use_fortran_cmake "$prefix"
     expect_refusal "$prefix" "the component fortran needs a project with LANGUAGES Fortran" C
-    expect_refusal "$prefix" "it has no component cobol: there is only fortran" Fortran cobol
+    expect_refusal "$prefix" "it has no component cobol: there are fortran and mpi" Fortran cobol
 fi
 
 moved="$work/somewhere else/deeper" # and with a blank in its name
@@ -55,6 +60,7 @@ mv "$prefix" "$moved"
 use_cmake "$moved"
 [ -z "$FC" ] || use_fortran_cmake "$moved"
 mv "$moved" "$work/second"
+[ -z "$several" ] || use_mpi "$work/second" "$libdir"
 use_pkg_config "$work/second" "$libdir"
 [ -z "$FC" ] || use_fortran_pkg_config "$work/second" "$libdir"
 echo "passed"
