@@ -12,6 +12,11 @@ constexpr double most_cells = 1 << 16;
 } // namespace
 
 void SegmentCells::lay_out(const Box &box, double reach) {
+    if (!(box.x_min <= box.x_max)) { // without particles nobody looks
+        columns_ = rows_ = 0;
+        start_.assign(1, 0);
+        return;
+    }
     const double width = box.x_max - box.x_min + 2 * reach, height = box.y_max - box.y_min + 2 * reach;
     size_ = std::max({reach, (width + height) / most_cells, std::sqrt(width / most_cells) * std::sqrt(height)});
     x_ = box.x_min - reach;
