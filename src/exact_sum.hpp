@@ -24,7 +24,8 @@ public:
             return;
         }
         const double high = std::rint(units * 0x1p-40), low = std::rint(units - high * 0x1p40);
-        whole_ += static_cast<Whole>(static_cast<int64_t>(high)) * (static_cast<Whole>(1) << 40) + static_cast<int64_t>(low);
+        whole_ +=
+            static_cast<Whole>(static_cast<int64_t>(high)) * (static_cast<Whole>(1) << 40) + static_cast<int64_t>(low);
     }
     void operator+=(const ExactSum &other) {
         whole_ += other.whole_;
