@@ -54,19 +54,10 @@ TEST(AnnularCell, HasTheTorqueAndTheYieldRadiusOfTheLaw) {
                                       [](gp_plate &p) { p.omega = omega; }); // counter-clockwise: material outside
     const std::vector<int32_t> around = add_line(sim, arc(0, 0, outer, 0, -360, outer_plates), GP_WALL_NO_SLIP,
                                                  [](gp_plate &p) { p.normal_pressure = load; });
-    std::vector<double> x, y; // rings of particles
     const double apothem = outer * std::cos(pi / outer_plates);
     const int rows = static_cast<int>(std::round((apothem - inner) / spacing));
-    for (int j = 0; j < rows; ++j) {
-        const double r = inner + (apothem - inner) * (j + 0.5) / rows;
-        const int count = static_cast<int>(std::round(2 * pi * r / spacing));
-        for (int k = 0; k < count; ++k) {
-            x.push_back(r * std::cos(2 * pi * (k + 0.5 * (j % 2)) / count));
-            y.push_back(r * std::sin(2 * pi * (k + 0.5 * (j % 2)) / count));
-        }
-    }
-    const auto n = static_cast<int64_t>(x.size());
-    ASSERT_EQ(gp_add_particles(sim, material, n, x.data(), y.data(), nullptr, nullptr, nullptr), GP_OK);
+    add_rings(sim, material, inner, apothem, rows, spacing);
+    ASSERT_FALSE(testing::Test::HasFatalFailure());
     // Steady within .3 s. Means of .2 s.
     sim.run(0.4);
     const double before = sim.load(ring).impulse_torque;

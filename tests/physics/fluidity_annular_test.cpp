@@ -44,20 +44,10 @@ void expect_torque_and_profile(double horizon, double torque_error) {
     const int32_t ring = add_polyline(sim, arc(0, 0, inner, 0, 360, 48), GP_WALL_NO_SLIP,
                                       [](gp_plate &p) { p.omega = omega; }); // counter-clockwise: material outside
     add_outer_ring(sim);
-    std::vector<double> x, y; // rings of particles
     const double apothem = outer * std::cos(pi / outer_plates);
     const int rows = static_cast<int>(std::round((outer - inner) / spacing));
-    for (int j = 0; j < rows; ++j) {
-        const double r = inner + (apothem - inner) * (j + 0.5) / rows;
-        const int count = static_cast<int>(std::round(2 * pi * r / spacing));
-        for (int k = 0; k < count; ++k) {
-            x.push_back(r * std::cos(2 * pi * (k + 0.5 * (j % 2)) / count));
-            y.push_back(r * std::sin(2 * pi * (k + 0.5 * (j % 2)) / count));
-        }
-    }
-    ASSERT_EQ(
-        gp_add_particles(sim, material, static_cast<int64_t>(x.size()), x.data(), y.data(), nullptr, nullptr, nullptr),
-        GP_OK);
+    add_rings(sim, material, inner, apothem, rows, spacing);
+    ASSERT_FALSE(testing::Test::HasFatalFailure());
     // Early, and when the rings of particles next to the wall have passed each other by ten spacings and more.
     for (const double from : {0.3, 1.3}) {
         sim.run(from);

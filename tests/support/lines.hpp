@@ -66,6 +66,21 @@ inline std::vector<Point> arc(double x, double y, double radius, double from_deg
     return points;
 }
 
+// Particles in rings about the origin, between two radii, every other ring turned by half of its distance between them.
+inline void add_rings(Sim &sim, int32_t material, double inner, double outer, int rings, double spacing) {
+    std::vector<double> x, y;
+    for (int j = 0; j < rings; ++j) {
+        const double r = inner + (outer - inner) * (j + 0.5) / rings;
+        const int count = static_cast<int>(std::round(2 * pi * r / spacing));
+        for (int k = 0; k < count; ++k) {
+            x.push_back(r * std::cos(2 * pi * (k + 0.5 * (j % 2)) / count));
+            y.push_back(r * std::sin(2 * pi * (k + 0.5 * (j % 2)) / count));
+        }
+    }
+    const auto n = static_cast<int64_t>(x.size());
+    ASSERT_EQ(gp_add_particles(sim, material, n, x.data(), y.data(), nullptr, nullptr, nullptr), GP_OK);
+}
+
 // Particles on the lattice of the spacing where `inside` says so.
 inline void fill(Sim &sim, const Point &low, const Point &high, double spacing,
                  const std::function<bool(double, double)> &inside, double vx = 0) {
