@@ -1,4 +1,4 @@
-/* A column that is released on an incline, and a tall silo whose floor sinks. */
+/* A column that is released on an incline, a vertical face that should stand, and a tall silo whose floor sinks. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -73,6 +73,26 @@ void incline_column(const choices *c) {
     walls_print_cost(sim);
     free(x);
     free(columns);
+    gp_destroy(sim);
+}
+
+void face(const choices *c) {
+    const double width = 0.08, height = 0.05, mu = 1.5;
+    const gp_config config = walls_config(c, width / c->rows);
+    gp_material material;
+    gp_state state;
+    gp_sim *sim;
+    CHECK(gp_create(&config, &sim));
+    CHECK(gp_material_init(&material, sizeof material));
+    material.mu_s = material.mu_2 = mu;
+    CHECK(gp_add_material(sim, &material, NULL));
+    add_column(sim, 0, width, height, 1);
+    add_plate(sim, width + 0.4, 0, -0.4, 0, GP_WALL_NO_SLIP, 0);
+    CHECK(gp_run(sim, c->end));
+    state = walls_state(sim);
+    printf("peak %.5g of the height\n", state.peak_height / height);
+    printf("at_rest %d 1\n", state.at_rest);
+    walls_print_cost(sim);
     gp_destroy(sim);
 }
 
