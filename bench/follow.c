@@ -13,7 +13,7 @@ const char *const follow_header =
     "time,peak_height,x_left,x_right,kinetic_share,error_share,rms_speed,max_speed,max_pressure,pressure_noise,unseen,"
     "penalty_share,drift,drift_rms,at_rest,steps";
 
-static const double gravity = 9.81; /* m/s2, the library's default */
+static const double gravity = 9.81;                            /* m/s2, the library's default */
 static const double landed = 0.05, early = 0.1, Nearly = 1e-9; /* s */
 
 static gp_state state_of(gp_sim *sim) {

@@ -214,9 +214,10 @@ void record_run(gp_sim *sim, const recording *r) {
     double rest_since = 0, highest_pressure = s.max_pressure;
     int was_at_rest = 0, k;
     long rows = 0;
-    f.series = open_table(r, "series",
-                          "time,peak_height,peak_x,run_out_90,run_out_98,tip,axis_height,rms_speed,max_speed,kinetic_share,"
-                          "energy_error_share,max_pressure,at_rest");
+    f.series =
+        open_table(r, "series",
+                   "time,peak_height,peak_x,run_out_90,run_out_98,tip,axis_height,rms_speed,max_speed,kinetic_share,"
+                   "energy_error_share,max_pressure,at_rest");
     f.surface = open_table(r, "surface", "time,x,height,connected");
     f.section = open_table(r, "section", "time,y,x,vx,speed,particles");
     f.interface = open_table(r, "interface", "time,y,x");

@@ -95,7 +95,14 @@ int main(int argc, char **argv) {
     const int n = (int)(sizeof cases / sizeof cases[0]);
     static const char *const frictions[] = {"rough", "smooth", "coulomb"};
     static const int32_t walls[] = {GP_WALL_NO_SLIP, GP_WALL_FREE_SLIP, GP_WALL_COULOMB};
-    choices c = {.rows = NAN, .angle = NAN, .horizon = NAN, .end = NAN, .filling = 5, .segments = 24, .froude = 1e-2, .turns = 5};
+    choices c = {.rows = NAN,
+                 .angle = NAN,
+                 .horizon = NAN,
+                 .end = NAN,
+                 .filling = 5,
+                 .segments = 24,
+                 .froude = 1e-2,
+                 .turns = 5};
     double coulomb = 0, beads = 0;
     const char *wall = "rough";
     const bench_option options[] = {

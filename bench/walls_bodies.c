@@ -42,7 +42,7 @@ void incline_column(const choices *c) {
     const gp_config config = walls_config(c, height / c->rows);
     gp_sim *sim;
     gp_state state;
-    double *x, *columns, t;
+    double *x, *y, *p, *columns, t, clump = 0;
     int64_t k, own = 0;
     int32_t column;
     CHECK(gp_create(&config, &sim));
@@ -60,7 +60,12 @@ void incline_column(const choices *c) {
     }
     state = walls_state(sim);
     x = walls_field(sim, GP_FIELD_X, state.n_particles);
+    y = walls_field(sim, GP_FIELD_Y, state.n_particles);
+    p = walls_field(sim, GP_FIELD_PRESSURE, state.n_particles);
     columns = walls_field(sim, GP_FIELD_COLUMN, state.n_particles);
+    for (k = 0; k < state.n_particles; ++k) /* of what has come off in front of the deposit, and bears nothing */
+        if (x[k] > state.x_right && p[k] == 0 && state.at_rest)
+            clump = fmax(clump, ceil((y[k] - c->bed) / config.spacing - 0.25));
     for (k = 0; k < state.n_particles; ++k)
         if (columns[k] == column)
             x[own++] = x[k];
@@ -69,9 +74,12 @@ void incline_column(const choices *c) {
     printf("x_98 %.5g m\n", x[(int64_t)(0.98 * (double)own)]);
     printf("tip %.5g m\n", c->bed > 0 ? x[own - 1] : state.x_right);
     printf("detached %.5g of the mass\n", state.detached);
+    printf("clump %.3g rows, of what has come off and bears no pressure, at rest\n", clump);
     printf("at_rest %d 1\n", state.at_rest);
     walls_print_cost(sim);
     free(x);
+    free(y);
+    free(p);
     free(columns);
     gp_destroy(sim);
 }
