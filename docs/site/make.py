@@ -18,6 +18,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from c_reference import write_c_reference  # noqa: E402
 from fortran_reference import write_fortran_reference  # noqa: E402
+from mpi_reference import write_mpi_reference  # noqa: E402
 from python_reference import write_python_reference  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -40,6 +41,8 @@ def target_of(page, link):
     up = "../" * page.count("/")
     if path == "include/granperi/gp.h":
         return up + "reference/c/index.rst"
+    if path == "include/granperi/gp_mpi.h":
+        return up + "reference/c/mpi.rst"
     if path.startswith("examples/"):
         return up + "examples/" + (path[len("examples/"):] + ".md" if os.path.isfile(os.path.join(ROOT, path)) else "index.md")
     if path.startswith("docs/") and path.endswith((".md", ".png")):
@@ -124,10 +127,12 @@ def stage(source, cc):
     shutil.copytree(os.path.join(ROOT, "docs", "images"), os.path.join(source, "images"))
     stage_guide(source)
     stage_examples(source)
-    functions = write_c_reference(os.path.join(ROOT, "include", "granperi", "gp.h"), cc, os.path.join(source, "reference", "c"))
+    header, c_pages = os.path.join(ROOT, "include", "granperi", "gp.h"), os.path.join(source, "reference", "c")
+    functions = write_c_reference(header, cc, c_pages, more=["mpi"])
+    of_mpi = write_mpi_reference(os.path.join(os.path.dirname(header), "gp_mpi.h"), header, cc, c_pages)
     bound = write_fortran_reference(os.path.join(ROOT, "bindings", "fortran"), functions,
                                     os.path.join(source, "reference", "fortran"))
-    return functions, write_python_reference(os.path.join(source, "reference", "python")), bound
+    return functions + of_mpi, write_python_reference(os.path.join(source, "reference", "python")), bound
 
 
 def ids_in(directory):
