@@ -117,7 +117,7 @@ def columns(results: Collection) -> str:
                 cpu(_value(results, run, "cpu_seconds")),
             ]
         )
-    header = ["column", "peak/L", "run-out, 90 %", "at rest (s)", "KE/E0 at 2 s", "peak, 2 to 30 s", "R90, 2 to 30 s", "CPU s"]
+    header = ["column", "peak/L", "run-out, 90 %", "at rest (s)", "KE/E0 at 2 s", "peak, 2 to 30 s", "run-out, 2 to 30 s", "CPU s"]
     return table(header, rows)
 
 
