@@ -182,7 +182,7 @@ std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const Wo
         const std::vector<Field<double> *> from = carried_fields(const_cast<World *>(whole)->particles);
         std::size_t next = 0;
         for (std::size_t rank = 0; rank < out.size(); ++rank)
-            for (double left = counts[rank]; left > 0; --left) {
+            for (auto left = static_cast<int64_t>(counts[rank]); left > 0; --left) {
                 const int64_t i = place_of_id[static_cast<std::size_t>(all[next++])];
                 for (const Field<double> *field : from)
                     out[rank].push_back((*field)[i]);
