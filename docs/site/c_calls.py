@@ -69,7 +69,7 @@ def errors_of(function, doc, roles):
     """What it returns: the statuses that hold for all calls, and the sentences of its comment that name others."""
     if function.result.base != "gp_status":
         return []
-    lines = ["Returns", "", "- %s;" % text.linked("GP_OK: done", roles)]
+    lines = [".. rubric:: Returns", "", "- %s;" % text.linked("GP_OK: done", roles)]
     named = [name for name in re.findall(r"\bGP_(?:E_[A-Z]+|STOPPED)\b", doc)]
     takes_sim = any(parameter.type.base == "gp_sim" for parameter in function.parameters)
     for name, meaning in GENERAL.items():
@@ -119,7 +119,7 @@ def example_lines(function):
     if example is None:
         return []
     code, where = example
-    return ["Example, from :doc:`%s`:" % where, "", ".. code-block:: c", "", *text.indented(code.split("\n")), ""]
+    return [".. rubric:: Example", "", "From :doc:`%s`:" % where, "", ".. code-block:: c", "", *text.indented(code.split("\n")), ""]
 
 
 def python_name(function, granperi):

@@ -82,4 +82,4 @@ def example_lines(call, is_function):
     if example is None:
         return []
     code, where = example
-    return ["Example, from :doc:`%s`:" % where, "", ".. code-block:: fortran", "", *text.indented(code.split("\n")), ""]
+    return [".. rubric:: Example", "", "From :doc:`%s`:" % where, "", ".. code-block:: fortran", "", *text.indented(code.split("\n")), ""]

@@ -104,7 +104,7 @@ def page_of(name, procedure, header, roles):
     lines += fortran_calls.argument_table(name, procedure, same, roles)
     comment = c_reference.comments_of(header).get(same, "")
     if same:
-        lines += ["What it does, in the words of :c:func:`%s`:" % same, "", *text.indented(text.paragraphs(comment, roles)), "",
+        lines += [".. rubric:: In C", "", ":c:func:`%s` does the same:" % same, "", *text.paragraphs(comment, roles), "",
                   *c_calls.errors_of(functions[same], comment, roles)]
     lines += fortran_calls.example_lines(name, procedure.kind == "function")
     return lines + (c_calls.in_python(same) if same else [])

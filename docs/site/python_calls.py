@@ -53,7 +53,7 @@ def kind_of(parameter):
     """The type in words that the source has, without marks of the type checker."""
     kind = parameter.annotation
     if kind is inspect.Parameter.empty:
-        return ""
+        return "array" if parameter.kind is parameter.POSITIONAL_OR_KEYWORD else ""
     kind = kind if isinstance(kind, str) else getattr(kind, "__name__", str(kind))
     kind = re.sub(r"\bos\.PathLike\[str\]", "PathLike", kind.replace('"', "").replace("'", ""))
     return "" if kind == "Any" or "Unpack" in kind else kind
@@ -121,13 +121,13 @@ def page_of(name, thing, directive, known, others):
              ".. py:%s:: %s" % (directive, syntax_of(name.removeprefix("plot."), thing)), "",
              *text.indented(prose(parts.doc, known)), "", *argument_table(name, thing, parts, known)]
     if parts.returns:
-        lines += ["Returns", "", "   " + linked(parts.returns, known), ""]
+        lines += [".. rubric:: Returns", "", linked(parts.returns, known), ""]
     if parts.raises:
-        lines += ["Errors", "", *["- %s: %s" % (linked(error, known), linked(when, known)) for error, when in parts.raises], ""]
+        lines += [".. rubric:: Errors", "", *["- %s: %s" % (linked(error, known), linked(when, known)) for error, when in parts.raises], ""]
     if parts.example:
-        lines += ["Example", "", ".. code-block:: python", "", *text.indented(parts.example.split("\n")), ""]
+        lines += [".. rubric:: Example", "", ".. code-block:: python", "", *text.indented(parts.example.split("\n")), ""]
     if parts.restrictions:
-        lines += ["Restrictions", "", "   " + linked(" ".join(parts.restrictions.split()), known), ""]
+        lines += [".. rubric:: Restrictions", "", linked(" ".join(parts.restrictions.split()), known), ""]
     return lines + others
 
 

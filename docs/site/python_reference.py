@@ -32,6 +32,10 @@ ERRORS = ("An error is an exception with the library's text, which names the arg
           "everywhere an :py:exc:`granperi.ArgumentTypeError`, which is an ArgumentError; a closed simulation, and one that another "
           "thread is using, a :py:exc:`granperi.StateError`.")
 
+EXAMPLES = ("In the examples ``sim`` is a simulation of a small column on a floor, ``collapse.toml`` the scene file of "
+            ":doc:`/guide/python`, ``collapse.h5`` its result, ``report`` what :py:func:`granperi.report` has given, and ``np`` is "
+            "numpy. A test runs each of them.")
+
 
 class PackageError(Exception):
     """The package has a name that no page of the reference has, or the other way round."""
@@ -207,7 +211,7 @@ def write_python_reference(directory, header, of_fortran):
     for name in PICTURES:
         call("plot." + name, getattr(granperi.plot, name), "function")
     pages["plot"] = topic_page("Pictures: granperi.plot", PICTURES, granperi.plot, known)
-    pages["index"] = [*text.titled("Python: import granperi"), "The guide is :doc:`/guide/python`.", "", ERRORS, "",
+    pages["index"] = [*text.titled("Python: import granperi"), "The guide is :doc:`/guide/python`.", "", ERRORS, "", EXAMPLES, "",
                       ".. toctree::", "   :maxdepth: 1", "", *text.indented([*PAGES, "plot"]), ""]
     for name, lines in pages.items():
         with open(os.path.join(directory, name + ".rst"), "w", encoding="utf-8") as page:
