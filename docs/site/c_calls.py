@@ -23,12 +23,14 @@ ARGUMENTS = {
     "left": "number of a column or set of particles, counted from 0", "right": "number of another one", "load": "receives the load",
     "entries": "receives up to n entries; NULL with n = 0", "n_out": "receives how many there are in all",
     "path": "of the file, as the system's calls take it", "output": "what to write and when; NULL: the defaults",
-    "config": "the parameters", "column": "the rectangle",
+    "config": "the parameters", "column": "the rectangle", "comm": "the processes that take part",
 }
 OF_CALL = {"gp_add_plate.plate": "the plate", "gp_plate_init.plate": "receives the defaults", "gp_material_init.material":
            "receives the defaults", "gp_column_init.column": "receives the defaults", "gp_config_init.config":
            "receives the defaults", "gp_output_init.output": "receives the defaults", "gp_create.sim":
            "receives the simulation; NULL after an error", "gp_load_file.sim": "receives the simulation; NULL after an error",
+           "gp_create_mpi.sim": "receives the simulation; NULL after an error",
+           "gp_load_mpi.sim": "receives the simulation; NULL after an error",
            "gp_destroy.sim": "the simulation, or NULL", "gp_add_material.material": "the material",
            "gp_add_particles.vx": "m/s, shape (n), finite, or NULL with vy: at rest", "gp_add_particles.vy": "m/s, shape (n), finite",
            "gp_step.n": "number of steps; >= 0", "gp_get_interface.x": "m, shape (n); receives the positions",

@@ -142,8 +142,9 @@ def of_declaration(declaration, roles):
     raise ReferenceError_("nothing is known of %r" % (declaration,))
 
 
-def write_c_reference(header_path, cc, directory, of_fortran=()):
-    """The names of all public functions. of_fortran: {C function: name of its page in the Fortran reference}."""
+def write_c_reference(header_path, cc, directory, of_fortran=(), more=()):
+    """The names of all public functions. of_fortran: {C function: name of its page in the Fortran reference}; more: pages that
+    others write beside these."""
     with open(header_path, encoding="utf-8") as source:
         source = source.read()
     header = read_header(header_path, cc, text.lines_of)
@@ -188,5 +189,5 @@ def write_c_reference(header_path, cc, directory, of_fortran=()):
     conventions = conventions.split("\n\n", 1)[1]  # the first line is the project's name
     with open(os.path.join(directory, "index.rst"), "w", encoding="utf-8") as page:
         page.write("\n".join([*text.titled("C: granperi/gp.h"), *text.paragraphs(conventions, roles), "",
-                              ".. toctree::", "   :maxdepth: 2", "", *text.indented(pages), ""]))
+                              ".. toctree::", "   :maxdepth: 2", "", *text.indented([*pages, *more]), ""]))
     return [function.name for function in header.of(Function)]

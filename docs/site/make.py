@@ -19,6 +19,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import text  # noqa: E402
 from c_reference import read_header, write_c_reference  # noqa: E402
 from fortran_reference import c_functions, write_fortran_reference  # noqa: E402
+from mpi_reference import write_mpi_reference  # noqa: E402
 from python_reference import write_python_reference  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -41,6 +42,8 @@ def target_of(page, link):
     up = "../" * page.count("/")
     if path == "include/granperi/gp.h":
         return up + "reference/c/index.rst"
+    if path == "include/granperi/gp_mpi.h":
+        return up + "reference/c/mpi.rst"
     if path.startswith("examples/"):
         return up + "examples/" + (path[len("examples/"):] + ".md" if os.path.isfile(os.path.join(ROOT, path)) else "index.md")
     if path.startswith("docs/") and path.endswith((".md", ".png")):
@@ -126,11 +129,12 @@ def stage(source, cc):
     stage_guide(source)
     stage_examples(source)
     path, fortran = os.path.join(ROOT, "include", "granperi", "gp.h"), os.path.join(ROOT, "bindings", "fortran")
-    header = read_header(path, cc, text.lines_of)
+    header, c_pages = read_header(path, cc, text.lines_of), os.path.join(source, "reference", "c")
     of_fortran = c_functions(fortran, header)
-    functions = write_c_reference(path, cc, os.path.join(source, "reference", "c"), of_fortran)
+    functions = write_c_reference(path, cc, c_pages, of_fortran, more=["mpi"])
+    of_mpi = write_mpi_reference(os.path.join(os.path.dirname(path), "gp_mpi.h"), path, cc, c_pages)
     bound = write_fortran_reference(fortran, header, os.path.join(source, "reference", "fortran"))
-    return functions, write_python_reference(os.path.join(source, "reference", "python"), header, of_fortran), bound
+    return functions + of_mpi, write_python_reference(os.path.join(source, "reference", "python"), header, of_fortran), bound
 
 
 def ids_in(directory):

@@ -29,8 +29,8 @@
 extern "C" {
 #endif
 
-/* Collective, as gp_create. MPI has been initialised, with MPI_THREAD_FUNNELED for gp_config.threads other than 1, and is
- * finalised after gp_destroy. The communicator is copied. */
+/* Collective, as gp_create. MPI has been initialised, with MPI_THREAD_FUNNELED for gp_config.threads other than 1, and not yet
+ * finalised, else GP_E_STATE; it is finalised after gp_destroy. The communicator is copied; MPI_COMM_NULL is GP_E_ARGUMENT. */
 GP_API gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim);
 
 /* Collective, as gp_load: of a checkpoint by any number of processes, which every process can read. */

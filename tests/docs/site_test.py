@@ -13,6 +13,7 @@ import docstrings  # noqa: E402
 import fortran_calls  # noqa: E402
 import fortran_reference  # noqa: E402
 import make  # noqa: E402
+import mpi_reference  # noqa: E402
 import pages_test  # noqa: E402
 import python_calls  # noqa: E402
 import text  # noqa: E402
@@ -71,6 +72,17 @@ class CReference(unittest.TestCase):
     def test_examples_end_with_their_statements(self):
         self.assertEqual(c_reference.c_calls.excerpt(["a", "call f(1, &", "b, &", "c, &", "d, &", "e)", "g"], 1),
                          "a\ncall f(1, &\nb, &\nc, &\nd, &\ne)")
+
+    def test_has_the_calls_of_several_processes(self):
+        with tempfile.TemporaryDirectory() as pages:
+            include = os.path.join(ROOT, "include", "granperi")
+            names = mpi_reference.write_mpi_reference(os.path.join(include, "gp_mpi.h"), os.path.join(include, "gp.h"), ["cc"], pages)
+            self.assertEqual(sorted(os.listdir(pages)), sorted(["mpi.rst", *(name + ".rst" for name in names)]))
+            self.assertEqual(names, ["gp_create_mpi", "gp_load_mpi"])
+            with open(os.path.join(pages, "gp_create_mpi.rst"), encoding="utf-8") as page:
+                page = page.read()
+            self.assertIn(".. c:function:: gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim)", page)
+            self.assertIn("   * - ``comm``", page)
 
     def test_refuses_a_function_without_a_comment(self):
         with self.assertRaisesRegex(c_reference.ReferenceError_, "gp_begin has no comment"):
@@ -158,6 +170,7 @@ class Pages(unittest.TestCase):
     def test_links_lead_to_pages(self):
         self.assertEqual(make.target_of("guide/errors.md", "python.md"), "../guide/python.md")
         self.assertEqual(make.target_of("guide/errors.md", "../../include/granperi/gp.h"), "../reference/c/index.rst")
+        self.assertEqual(make.target_of("guide/mpi.md", "../../include/granperi/gp_mpi.h"), "../reference/c/mpi.rst")
         self.assertEqual(make.target_of("guide/errors.md", "../../examples/c/hit_block.c"), "../examples/c/hit_block.c.md")
         self.assertIsNone(make.target_of("validation.md", "../bench/README.md"))
         with self.assertRaisesRegex(make.PageError, "there is no nowhere.md"):
