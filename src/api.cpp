@@ -15,6 +15,7 @@
 #include "handle.hpp"
 #include "io/checkpoint.hpp"
 #include "level.hpp"
+#include "stretches.hpp"
 
 namespace {
 
@@ -63,16 +64,7 @@ template <class T> gp_status hand_out(T *target, T filled, const char *name) {
     return GP_OK;
 }
 
-// Looks at the whole of a world that several processes may have parts of: body runs on the first of them.
-template <class Body> void on_whole(Sim &sim, const Body &body) {
-    const World *whole = sim.whole();
-    if (sim.crossing())
-        run_on_first(*sim.crossing(), [&] { body(*whole); });
-    else
-        body(*whole);
-}
-
-// What has come of that goes to all.
+// What the first process has found goes to all.
 template <class T> void tell_all(const Sim &sim, T *values, int64_t count) {
     if (sim.crossing())
         sim.crossing()->broadcast(values, count * static_cast<int64_t>(sizeof(T)), 0);
@@ -83,12 +75,9 @@ gp_status hand_out_state(gp_sim *sim, uint32_t parts, gp_state *target) {
     Sim &s = readable(sim);
     const bool fresh = sim->state_epoch != s.epoch();
     if (fresh || (parts & ~sim->state_parts)) {
-        on_whole(s, [&](const World &world) {
-            if (fresh)
-                sim->state = measure_sums(world);
-            measure_parts(world, fresh ? parts : parts & ~sim->state_parts, sim->state);
-        });
-        tell_all(s, &sim->state, 1);
+        if (fresh)
+            sim->state = measure_sums(s.world());
+        measure_parts(s.world(), fresh ? parts : parts & ~sim->state_parts, sim->state);
         sim->state_parts = fresh ? parts : sim->state_parts | parts;
         sim->state_epoch = s.epoch();
     }
@@ -110,24 +99,6 @@ void require_stations(int64_t n, const char *in_name, const double *in, const ch
             throw make_error(GP_E_ARGUMENT, "%s[%lld] = %g: expected a finite number", in_name,
                              static_cast<long long>(k), in[k]);
 }
-
-// The sink of a process among several: all know when a frame is due, and the first one writes it.
-class SharedFrames : public FrameSink {
-public:
-    SharedFrames(Sim &sim, io::Output *output, const io::FrameTimes &times)
-        : sim_(sim), output_(output), times_(times) {}
-    void step_done(const World &part) override {
-        if (!times_.due(part))
-            return;
-        times_.pass(part);
-        on_whole(sim_, [&](const World &world) { output_->step_done(world); });
-    }
-
-private:
-    Sim &sim_;
-    io::Output *output_;
-    io::FrameTimes times_;
-};
 
 void put_id(int32_t *id, int32_t value) {
     if (id)
@@ -342,15 +313,16 @@ gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
         Sim &s = readable(sim);
         if (s.crossing() && s.crossing()->rank() > 0 && n != 0)
             throw make_error(GP_E_ARGUMENT, "n = %lld: expected 0 but on the first process", static_cast<long long>(n));
-        on_whole(s, [&](const World &world) {
-            if (n != world.particles.count)
+        FieldsById fields(s.world());
+        on_first(s.world(), [&] {
+            if (n != fields.count())
                 throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld",
-                                 static_cast<long long>(n), static_cast<long long>(world.particles.count));
-            if (n > 0) {
+                                 static_cast<long long>(n), static_cast<long long>(fields.count()));
+            if (n > 0)
                 require_pointer("dst", dst);
-                copy_field_by_id(world, field, dst);
-            }
         });
+        for (int64_t first = 0; first < fields.count(); first += stretch_size)
+            fields.read(field, first, std::min(stretch_size, fields.count() - first), dst ? dst + first : nullptr);
         return GP_OK;
     });
 }
@@ -394,8 +366,8 @@ gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height
     return guard([&] {
         require_stations(n, "x", x, "height", height);
         Sim &s = readable(sim);
-        on_whole(s, [&](const World &world) {
-            const Surface surface(world, connected_deposit(world));
+        const Surface surface(s.world(), connected_deposit(s.world()));
+        on_first(s.world(), [&] {
             for (int64_t k = 0; k < n; ++k)
                 if (!surface.height(x[k], height[k]))
                     height[k] = 0;
@@ -414,11 +386,9 @@ gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, 
         if (left == right)
             throw make_error(GP_E_ARGUMENT, "right = %d: expected another column than left", right);
         require_stations(n, "y", y, "x", x);
-        on_whole(s, [&](const World &world) {
-            for (int64_t k = 0; k < n; ++k)
-                if (!interface_at(world, left, right, y[k], x[k]))
-                    x[k] = std::numeric_limits<double>::quiet_NaN();
-        });
+        for (int64_t k = 0; k < n; ++k)
+            if (!interface_at(s.world(), left, right, y[k], x[k]))
+                x[k] = std::numeric_limits<double>::quiet_NaN();
         tell_all(s, x, n);
         return GP_OK;
     });
@@ -479,7 +449,8 @@ gp_status gp_save(gp_sim *sim, const char *path) {
             return GP_OK;
         }
         s.prepare();
-        on_whole(s, [&](const World &world) { save(&world); });
+        const World *whole = s.whole();
+        on_first(s.world(), [&] { save(whole); });
         return GP_OK;
     });
 }
@@ -511,18 +482,8 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
             throw make_error(GP_E_STATE, "gp_output_open: an output is open already; gp_output_close it first");
         const gp_output options = output ? complete(output, io::default_output(), "gp_output") : io::default_output();
         s.prepare();
-        on_whole(s, [&](const World &world) {
-            sim->output = std::make_unique<io::Output>(path, options, world, sim->left_off);
-        });
+        sim->output = std::make_unique<io::Output>(path, options, s.world(), sim->left_off);
         s.sink = sim->output.get();
-        if (s.crossing()) {
-            io::FrameTimes times;
-            if (sim->output)
-                times = sim->output->times();
-            tell_all(s, &times, 1);
-            sim->frames = std::make_unique<SharedFrames>(s, sim->output.get(), times);
-            s.sink = sim->frames.get();
-        }
         sim->left_off = {};
         return GP_OK;
     });
@@ -533,7 +494,7 @@ gp_status gp_output_write(gp_sim *sim) {
         require_simulation(sim);
         if (!sim->sim.sink)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
-        on_whole(readable(sim), [&](const World &world) { sim->output->write(world); });
+        sim->output->write(readable(sim).world());
         return GP_OK;
     });
 }
@@ -545,10 +506,7 @@ gp_status gp_output_close(gp_sim *sim) {
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");
         s.sink = nullptr;
         const std::unique_ptr<io::Output> closing = std::move(sim->output);
-        if (s.crossing())
-            run_on_first(*s.crossing(), [&] { closing->close(); });
-        else
-            closing->close();
+        on_first(s.world(), [&] { closing->close(); });
         return GP_OK;
     });
 }
