@@ -1,6 +1,7 @@
 #include "parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 
@@ -50,6 +51,25 @@ double sum_of_all(const World &world, double energy) {
     sums.put(energy, energy_scale(world));
     world.crossing->combine(nullptr, 0, sums.wholes.data(), 1);
     return sums.take(energy_scale(world));
+}
+
+void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest) {
+    constexpr int most = 4;
+    std::array<Whole, most * bins::count> wholes;
+    std::array<double, most + 1> tops;
+    auto *next = wholes.data();
+    for (int k = 0; k < n_sums; ++k) {
+        next = std::copy(sums[k].wholes.begin(), sums[k].wholes.end(), next);
+        tops[k] = sums[k].top;
+    }
+    tops[n_sums] = largest;
+    crossing.combine(tops.data(), n_sums + 1, wholes.data(), n_sums * bins::count);
+    next = wholes.data();
+    for (int k = 0; k < n_sums; ++k, next += bins::count) {
+        std::copy_n(next, bins::count, sums[k].wholes.begin());
+        sums[k].top = tops[k];
+    }
+    largest = tops[n_sums];
 }
 
 void combine_books(World &world, BlockRange &range, BlockSums &total) {

@@ -5,12 +5,16 @@
 #include <functional>
 #include <string>
 
+#include "binned_sum.hpp"
 #include "world.hpp"
 
 namespace gp {
 
 // The sum of a number of each process, J/m.
 double sum_of_all(const World &world, double energy);
+
+// Sums, and the largest of a number of each process: of all.
+void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest);
 
 // The extremes, sums and loads of a step, and what it adds to the ledger: of all parts.
 void combine_books(World &world, BlockRange &range, BlockSums &total);

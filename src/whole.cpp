@@ -10,9 +10,8 @@ namespace gp {
 
 void require_partable(const Scene &scene) {
     const gp_config &config = scene.config();
-    if (scheme_of(config) != Scheme::adjoint)
-        throw make_error(GP_E_UNSUPPORTED,
-                         "gp_config.stress, preset: several processes work on the default scheme alone");
+    if (by_number_density(scheme_of(config)))
+        throw make_error(GP_E_UNSUPPORTED, "preset: several processes do not work on the paper's schemes");
     if (config.sleep != 0)
         throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = %d: expected 0 with several processes", config.sleep);
 }
@@ -55,6 +54,7 @@ template <class Visitor, class W> void visit_common(Visitor &v, W &w) {
     v(w.mass), v(w.collisions), v(w.max_compression), v(w.packing_at_start), v(w.retries), v(w.plastic_power);
     v(w.unbalanced_share), v(w.velocity_span), v(w.fastest), v(w.skin), v(w.shifted), v(w.lists_valid);
     v(w.walls.ghosts_placed);
+    v(w.viscous.newton), v(w.viscous.linear), v(w.viscous.failures), v(w.viscous.last), v(w.viscous.last_residual);
     v.list(w.pieces, [&](auto &piece) { v(piece.end), v(piece.depth); });
 }
 
@@ -182,7 +182,7 @@ std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const Wo
         const std::vector<Field<double> *> from = carried_fields(const_cast<World *>(whole)->particles);
         std::size_t next = 0;
         for (std::size_t rank = 0; rank < out.size(); ++rank)
-            for (double left = counts[rank]; left > 0; --left) {
+            for (auto left = static_cast<int64_t>(counts[rank]); left > 0; --left) {
                 const int64_t i = place_of_id[static_cast<std::size_t>(all[next++])];
                 for (const Field<double> *field : from)
                     out[rank].push_back((*field)[i]);

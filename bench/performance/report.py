@@ -10,7 +10,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import beside
 import document
+import headlines
 import lean
+import repeated
 import runs
 import sections
 from document import bullets, missing_runs, provenance, tidy, write_report
@@ -188,7 +190,7 @@ results in `results/performance`. Every number is measured by a run or cited. {l
 {bullets(sections.in_short(collection) + lean.in_short(collection))}
 
 """
-    return tidy(head + body + missing_runs(collection))
+    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n{missing_runs(collection)}")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import document
+import headlines
 import long_shear
+import repeated
 import runs
 import sections
 import theory
@@ -233,7 +235,7 @@ results in `results/stability`. Every number is measured by a run or computed fr
 {bullets(verdicts.in_short(collection))}
 
 """
-    return tidy(head + body + missing_runs(collection))
+    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n{missing_runs(collection)}")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ LAYERS = [
     ["granperi/gp", "error", "check", "entry", "float_environment", "level", "parallel"],
     ["geometry", "kernel", "lanes", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/fluidity", "material/linearized"],
     ["scene", "scene_constants", "scene_defaults", "scene_falls", "scene_plates", "scene_stress"],
-    ["exact_sum", "crossing", "particles"],
+    ["exact_sum", "binned_sum", "crossing", "particles"],
     ["sleep"],
     ["viscous_system"],
     ["neighbors"],
