@@ -114,7 +114,7 @@ def figure(path: Path, results: Collection) -> bool:
         for c in missed[group]:
             row += 0.6
             axes.plot([min(c.share, MOST)], [row], "o", color="#D55E00", ms=9)
-            axes.text(min(c.share, MOST) * 1.15, row, f"{c.name}: {c.times}", va="center", fontsize=13, color="#B04A00")
+            axes.text(min(c.share, MOST) * 1.3, row, f"{c.name}: {c.times}", va="center", fontsize=13, color="#B04A00")
         row += 1.2
     axes.axvline(1, color="black", lw=1.4)
     axes.set_xscale("log")
