@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
+import body_sections as bodies
 import convergence_section as convergence
 import document
 import every_case
@@ -190,6 +191,10 @@ The column of a = 1.25, gates gone at once, with public codes at the same μ(I).
 ## Walls and inclines
 
 {walls.section(collection)}
+
+## Walls of plates, walls that turn
+
+{bodies.section(collection)}
 
 ## A hopper
 
