@@ -95,7 +95,7 @@ def _pieces(results: Collection) -> list[Case]:
     ways, slopes = [], []
     for wall in runs.PIECE_WALLS:
         one = results(runs.pieces(1, wall))
-        level = present(results, ((f"{n} plates, {wall}", runs.pieces(n, wall)) for n in runs.PIECES))
+        level = present(results, ((f"{n} {'plate' if n == 1 else 'plates'}, {wall}", runs.pieces(n, wall)) for n in runs.PIECES))
         found += level
         rests += [(label, r.summary["rest"], _late(r, REST)) for label, r in level]
         if one:
@@ -106,7 +106,7 @@ def _pieces(results: Collection) -> list[Case]:
                 for key in ("pressure_least", "pressure_most")
             ]
         plane = results(runs.slope(1, wall))
-        down = present(results, ((f"{n} plates, {wall}", runs.slope(n, wall)) for n in runs.SLOPE_PIECES))
+        down = present(results, ((f"{n} {'plate' if n == 1 else 'plates'}, {wall}", runs.slope(n, wall)) for n in runs.SLOPE_PIECES))
         slopes += down
         if plane:
             ways += [(label, r.summary["way"] / plane.summary["way"] - 1) for label, r in down if r.name != plane.name]
