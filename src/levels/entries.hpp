@@ -11,6 +11,7 @@ namespace gp {
 
 struct Entries {
     const char *level; // level_name
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a type and a list of parameters take none
 #define GP_CALL(result, name, parameters, arguments) result(*name) parameters;
 #include "levels/calls.inc"
 #ifdef GP_WITH_MPI

@@ -19,6 +19,7 @@ Exits with 77 where a check does not apply.
 """
 
 import argparse
+import glob
 import os
 import re
 import shlex
@@ -246,7 +247,7 @@ def compiled_library(arguments):
     result = run(arguments.cxx + ["-std=c++17", "-w", "-g", "-O0", "-fPIC", "-shared", "-fvisibility=hidden", "-DGP_BUILDING",
                                   SONAME, "-I", source + "/src", "-I", source + "/include",
                                   "-Wl,--version-script=" + source + "/cmake/granperi.map"] + arguments.source_flags +
-                 [source + "/src/api.cpp", "-o", library])
+                 sorted(glob.glob(source + "/src/api*.cpp")) + ["-o", library])
     if result.returncode != 0:
         fail(result.stdout)
     return library

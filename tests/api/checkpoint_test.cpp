@@ -1,20 +1,22 @@
 // Checkpoints as a program sees them: when they can be made, what is refused, and how result files go on. That the bits go on
 // in another process is tested by trust/trust.py, what a wrong file does by unit/checkpoint_test.cpp.
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "../support/directory.hpp"
 #include "api_support.hpp"
 
 #ifdef GP_TEST_HDF5
-#include <hdf5.h>
+#include "../support/file_size_limit.hpp"
+#include "../support/result_file.hpp"
 #endif
 
 using namespace api;
+#ifdef GP_TEST_HDF5
+using test::frame_times;
+#endif
 
 namespace {
 
@@ -60,20 +62,6 @@ struct Loaded : Sim {
         EXPECT_EQ(gp_load(path.c_str(), &handle), GP_OK) << gp_last_error();
     }
 };
-
-std::vector<double> times_in(const std::string &path) {
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    const hid_t data = H5Dopen2(file, "/particles/all/position/time", H5P_DEFAULT), space = H5Dget_space(data);
-    hsize_t n = 0;
-    H5Sget_simple_extent_dims(space, &n, nullptr);
-    std::vector<double> times(n);
-    if (n > 0)
-        H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data());
-    H5Sclose(space);
-    H5Dclose(data);
-    H5Fclose(file);
-    return times;
-}
 
 gp_output every(double seconds, bool append = false) {
     gp_output output = make_output();
@@ -229,20 +217,14 @@ TEST_F(Checkpoint, WhatCannotBeWrittenLeavesTheOldOneAndTheSimulation) {
     EXPECT_FAILS(gp_save(sim, "/dev/full"), GP_E_IO, "regular file");
     EXPECT_FAILS(gp_save(sim, "/proc/state.gpc"), GP_E_IO, "/proc/state.gpc");
 
-    rlimit limit;
-    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     for (const rlim_t room : {rlim_t{0}, rlim_t{1000}, static_cast<rlim_t>(old.size() - 1)}) {
-        rlimit little = limit;
-        little.rlim_cur = room;
-        ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
-        const gp_status status = gp_save(sim, path.c_str());
-        ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
-        EXPECT_FAILS(status, GP_E_IO, std::strerror(EFBIG));
+        {
+            const test::FileSizeLimit limit(room);
+            EXPECT_FAILS(gp_save(sim, path.c_str()), GP_E_IO, std::strerror(EFBIG));
+        }
         EXPECT_TRUE(bytes_of(path) == old) << room;
         EXPECT_EQ(files(), 1u);
     }
-    std::signal(SIGXFSZ, handler);
     EXPECT_EQ(snapshot(sim, 3), before);
     EXPECT_EQ(Loaded(path).state().step, 3);
 
@@ -278,15 +260,15 @@ TEST_F(Checkpoint, TheOutputGoesBackToWhatItWas) {
     }
     Loaded loaded(path);
     EXPECT_FAILS(gp_output_open(loaded, h5.c_str(), &options), GP_E_STATE, "append");
-    EXPECT_EQ(times_in(h5).size(), 11u) << "and is as it was";
+    EXPECT_EQ(frame_times(h5).size(), 11u) << "and is as it was";
     const gp_output append = every(interval, true);
     ASSERT_EQ(gp_output_open(loaded, h5.c_str(), &append), GP_OK) << gp_last_error();
     ASSERT_EQ(gp_run(loaded, 0.01), GP_OK);
     ASSERT_EQ(gp_output_close(loaded), GP_OK);
-    std::vector<double> expected = times_in(whole);
+    std::vector<double> expected = frame_times(whole);
     expected.insert(expected.begin() + 4, 0.0035);
     // The runs land on other points in time: the frames are those of the same multiples.
-    const std::vector<double> found = times_in(h5);
+    const std::vector<double> found = frame_times(h5);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k)
         EXPECT_NEAR(found[k], expected[k], 0.3 * interval);
@@ -336,8 +318,8 @@ TEST_F(Checkpoint, AppendedFilesHaveToFit) {
     ASSERT_EQ(gp_output_open(sim, h5.c_str(), &append), GP_OK) << gp_last_error();
     ASSERT_EQ(gp_output_write(sim), GP_OK);
     ASSERT_EQ(gp_output_close(sim), GP_OK);
-    EXPECT_EQ(times_in(h5).size(), 3u);
-    EXPECT_EQ(times_in(h5).back(), sim.state().time);
+    EXPECT_EQ(frame_times(h5).size(), 3u);
+    EXPECT_EQ(frame_times(h5).back(), sim.state().time);
 
     // Frames that the simulation counted on are gone.
     ASSERT_EQ(gp_output_open(sim, h5.c_str(), &append), GP_OK) << gp_last_error();

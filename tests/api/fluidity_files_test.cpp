@@ -1,9 +1,7 @@
 // Checkpoints and result files of scenes with a granular fluidity.
 #ifdef GP_TEST_HDF5
-
-#include <hdf5.h>
-
 #include "../support/directory.hpp"
+#include "../support/result_file.hpp"
 #include "fluidity_support.hpp"
 
 using namespace api;
@@ -60,15 +58,9 @@ TEST_F(FluidityFiles, ResultFilesHaveItFrameByFrame) {
         expected.insert(expected.end(), now.begin(), now.end());
     }
     ASSERT_EQ(gp_output_close(sim), GP_OK);
-    const hid_t file = H5Fopen(h5.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    const hid_t data = H5Dopen2(file, "/particles/all/fluidity/value", H5P_DEFAULT);
-    ASSERT_GE(data, 0);
-    std::vector<double> found(expected.size());
-    EXPECT_GE(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, found.data()), 0);
-    EXPECT_GE(H5Aexists(data, "unit"), 1);
-    H5Dclose(data);
-    H5Fclose(file);
-    EXPECT_TRUE(found == expected);
+    const test::Reader file(h5);
+    EXPECT_EQ(file.numbers("/particles/all/fluidity/value"), expected);
+    EXPECT_EQ(file.text_attribute("/particles/all/fluidity/value", "unit"), "s-1");
 }
 
 #endif

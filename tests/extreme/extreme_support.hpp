@@ -38,13 +38,6 @@ inline double difference(const std::vector<double> &a, const std::vector<double>
     return largest;
 }
 
-inline double mean(const std::vector<double> &values) {
-    double sum = 0;
-    for (const double value : values)
-        sum += value;
-    return sum / static_cast<double>(values.size());
-}
-
 // Runs to the next whole `every` after which the material is at rest; at the latest to `end`.
 inline gp_state run_to_rest(Sim &sim, double every, double end) {
     gp_state state = sim.state();

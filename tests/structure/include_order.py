@@ -28,7 +28,7 @@ LAYERS = [
     ["sim"],
     ["sort_by_x", "fields", "diagnostics", "diagnostics_mass", "diagnostics_rest", "diagnostics_shape", "diagnostics_surface", "io/*"],
     ["handle"],
-    ["api", "load_symbol", "without_mpi", "granperi/gp_mpi", "mpi/*"],
+    ["api", "api_read", "load_symbol", "without_mpi", "granperi/gp_mpi", "mpi/*"],
     ["levels/*"],
 ]
 

@@ -111,13 +111,6 @@ inline Force total_load(Sim &sim, const std::vector<int32_t> &ids, const std::ve
     return sum;
 }
 
-inline double mean(const std::vector<double> &values) {
-    double sum = 0;
-    for (const double value : values)
-        sum += value;
-    return sum / static_cast<double>(values.size());
-}
-
 inline double weight_of(Sim &sim, double spacing) {
     return static_cast<double>(sim.state().n_particles) * spacing * spacing * density * gravity;
 }

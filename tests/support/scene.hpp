@@ -107,6 +107,13 @@ private:
     gp_sim *sim_ = nullptr;
 };
 
+inline double mean(const std::vector<double> &values) {
+    double sum = 0;
+    for (const double value : values)
+        sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
 // The column of the seed's first scene: a = 1.25, L = 0.08 m on a rough floor, released at once.
 struct Collapse {
     static constexpr double length = 0.08, height = 0.05, density = 1550, gravity = 9.81;

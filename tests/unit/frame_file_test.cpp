@@ -5,12 +5,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "../support/directory.hpp"
+#include "../support/file_size_limit.hpp"
 #include "error.hpp"
 #include "frame_file_reader.hpp"
 
@@ -212,22 +212,18 @@ TEST_F(FrameFileTest, RefusesWhatCannotBeWritten) {
 }
 
 TEST_F(FrameFileTest, AFullDiskCostsOnlyTheFramesItHasNoRoomFor) {
-    rlimit old;
-    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     testing::internal::CaptureStderr();
     for (const rlim_t room : {20000, 60000, 100000}) {
         SCOPED_TRACE(room);
-        std::string text;
+        std::string text, refused, again;
         std::unique_ptr<SampleFile> run;
-        rlimit limit = old;
-        limit.rlim_cur = room;
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-        const std::string refused = io_error([&] { run = std::make_unique<SampleFile>(h5, 300); });
-        while (run && text.empty())
-            text = io_error([&] { run->write(); });
-        const std::string again = run ? io_error([&] { run->write(); }) : text;
-        ::setrlimit(RLIMIT_FSIZE, &old);
+        {
+            const test::FileSizeLimit limit(room);
+            refused = io_error([&] { run = std::make_unique<SampleFile>(h5, 300); });
+            while (run && text.empty())
+                text = io_error([&] { run->write(); });
+            again = run ? io_error([&] { run->write(); }) : text;
+        }
         if (!run) {
             EXPECT_TRUE(contains(refused, h5) && contains(refused, std::strerror(EFBIG))) << refused;
             continue;
@@ -244,7 +240,6 @@ TEST_F(FrameFileTest, AFullDiskCostsOnlyTheFramesItHasNoRoomFor) {
         EXPECT_EQ(check_xdmf(xdmf, before + 3), "");
     }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-    std::signal(SIGXFSZ, handler);
 }
 
 TEST_F(FrameFileTest, AnySingleFailureCostsOnlyItsFrame) {
