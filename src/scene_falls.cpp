@@ -105,8 +105,8 @@ private:
         const double extent = segment.length * std::abs(across_.dot(segment.tangent));
         const double middle = across_.dot(segment.origin + 0.5 * segment.length * segment.tangent);
         const double far = std::max(std::abs(low_ - middle), std::abs(high_ - middle)) + extent;
-        const double images = shift > 0 ? std::min(most_images, std::ceil(far / shift)) : 0;
-        for (double k = -images; k <= images; ++k)
+        const auto images = static_cast<int>(shift > 0 ? std::min(most_images, std::ceil(far / shift)) : 0);
+        for (int k = -images; k <= images; ++k)
             add(plate, segment.moved({k * period.length, 0}));
     }
     void add(int32_t plate, const Segment &segment) {

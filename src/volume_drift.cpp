@@ -45,6 +45,7 @@ void add_run(const double *__restrict x, const double *__restrict y, int64_t n, 
     for (int64_t k = 0; k < n; ++k) {
         const double dx = x[k] - own_x, dy = y[k] - own_y, r2 = (dx * dx + dy * dy) * inverse2;
         const double ax = std::abs(dx), ay = std::abs(dy), inside = r2 < 1 ? 1 - r2 : 0;
+        // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and no processor has four lround at a time
         sum += static_cast<int32_t>(inside * inside * unit + 0.5);
         const int64_t on_x = dx > 0 ? 1 : 2, on_y = dy > 0 ? 4 : 8;
         const int64_t right = dy > 0 ? 16 : 64, left = dy > 0 ? 32 : 128, diagonal = dx > 0 ? right : left;
@@ -167,6 +168,12 @@ Packing measure_packing(const World &world, Part part) {
         all.weights += block.weights;
         all.particles += block.particles;
         all.density += block.density;
+    }
+    if (world.crossing) {
+        Whole sums[] = {all.weights, all.particles};
+        world.crossing->combine(nullptr, 0, sums, 2);
+        all.weights = static_cast<int64_t>(sums[0]);
+        all.particles = static_cast<int64_t>(sums[1]);
     }
     Packing packing;
     packing.particles = all.particles;

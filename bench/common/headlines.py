@@ -6,8 +6,8 @@ A report marks a number, as it prints it, where it prints it; once in all report
 
     f"Peak y/L {headline('validation.both_side.peak', fixed(peak))} at 0.42 s"
 
-which is <!--n=validation.both_side.peak-->0.410<!--/n--> in docs/validation.md; a report written by hand has the same typed in. Any other
-page says <!--n:validation.both_side.peak--> ... <!--/n-->, and scripts/numbers writes the number in between. There a format may follow
+which is <!--n=validation.both_side.peak-->0.410<!--/n--> in docs/validation.md; most are in the table that ends it (section(), of the rows of
+bench/validation/repeated.py). A report written by hand has the marks typed in. Any other page says <!--n:validation.both_side.peak--> ... <!--/n-->, and scripts/numbers writes the number in between. There a format may follow
 the name: <!--n:validation.both_side.peak .2f--> makes 0.41 of it, "abs .0f" makes 12 % of -12.1 %. What is no number in the report (a
 dash, where a run is missing) is an error, and the page keeps what it has.
 
@@ -35,9 +35,10 @@ def headline(name: str, text: str) -> str:
     return f"<!--n={name}-->{text}<!--/n-->"
 
 
-def plain(text: str) -> str:
-    """Without marks: for what is no page."""
-    return MARK.sub(lambda mark: mark["text"], text)
+def section(rows: Iterable[tuple[str, str, str]]) -> str:
+    """What a report ends with, of (name, what it is, number)."""
+    lines = [f"| {what} | {headline(name, text)} |" for name, what, text in rows]
+    return "\n".join(["## Numbers that other pages repeat", "", "| | |", "|---|---:|", *lines])
 
 
 @dataclasses.dataclass(frozen=True)

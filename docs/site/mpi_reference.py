@@ -21,7 +21,7 @@ def write_mpi_reference(header_path, gp_header_path, cc, directory):
     for function in functions:
         lines += ["   * - :doc:`%s`" % function.name, "     - " + text.linked(first_sentence(function.doc), roles)]
         with open(os.path.join(directory, function.name + ".rst"), "w", encoding="utf-8") as page:
-            page.write("\n".join(of_function(function, roles, function, [])))
+            page.write("\n".join(of_function(function, roles, function, [], {})))
     lines += ["", ".. toctree::", "   :hidden:", "", *text.indented([function.name for function in functions]), "",
               "The guide has a page on it: :doc:`/guide/mpi`.", ""]
     with open(os.path.join(directory, "mpi.rst"), "w", encoding="utf-8") as page:

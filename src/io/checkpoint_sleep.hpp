@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "error.hpp"
@@ -13,109 +15,95 @@
 
 namespace gp::io {
 
-struct SleepTable {
-    std::vector<uint8_t> asleep;
-    std::vector<double> quiet_for, way_x, way_y, pressure, sxx, sxy, fluidity, gxx, gxy, gyy, stressed; // Repose
-    std::vector<int64_t> load_id;
-    std::vector<int32_t> load_plate;
-    std::vector<double> load_x, load_y, load_couple;
-};
-
-template <class File, class Table> void exchange_sleep(File &file, Table &t) {
-    file.group("/sleep");
-    file.array("asleep", t.asleep);
-    file.array("quiet_for", t.quiet_for);
-    file.array("way_x", t.way_x);
-    file.array("way_y", t.way_y);
-    file.array("pressure", t.pressure);
-    file.array("sxx", t.sxx);
-    file.array("sxy", t.sxy);
-    file.array("fluidity", t.fluidity);
-    file.array("gxx", t.gxx);
-    file.array("gxy", t.gxy);
-    file.array("gyy", t.gyy);
-    file.array("stressed", t.stressed);
-    file.array("load_id", t.load_id);
-    file.array("load_plate", t.load_plate);
-    file.array("load_x", t.load_x);
-    file.array("load_y", t.load_y);
-    file.array("load_couple", t.load_couple);
+// Every number of a particle's rest that there is, and of a load, by its name in the file.
+template <class Visit> void for_each_of_repose(const Visit &visit) {
+    visit("quiet_for", &Repose::quiet_for);
+    visit("way_x", &Repose::way_x);
+    visit("way_y", &Repose::way_y);
+    visit("pressure", &Repose::pressure);
+    visit("sxx", &Repose::sxx);
+    visit("sxy", &Repose::sxy);
+    visit("fluidity", &Repose::fluidity);
+    visit("gxx", &Repose::gxx);
+    visit("gxy", &Repose::gxy);
+    visit("gyy", &Repose::gyy);
+    visit("stressed", &Repose::stressed);
+}
+template <class Visit> void for_each_of_load(const Visit &visit) {
+    visit("load_id", &MeanLoad::id);
+    visit("load_plate", &MeanLoad::plate);
+    visit("load_x", &MeanLoad::x);
+    visit("load_y", &MeanLoad::y);
+    visit("load_couple", &MeanLoad::couple);
 }
 
 inline void write_sleep(CheckpointWriter &file, const World &world) {
     const Particles &p = world.particles;
-    SleepTable t;
-    for (int64_t i = 0; i < p.count; ++i) {
-        const Repose &r = p.repose[i];
-        t.asleep.push_back(p.asleep[i]);
-        t.quiet_for.push_back(r.quiet_for);
-        t.way_x.push_back(r.way_x);
-        t.way_y.push_back(r.way_y);
-        t.pressure.push_back(r.pressure);
-        t.sxx.push_back(r.sxx);
-        t.sxy.push_back(r.sxy);
-        t.fluidity.push_back(r.fluidity);
-        t.gxx.push_back(r.gxx);
-        t.gxy.push_back(r.gxy);
-        t.gyy.push_back(r.gyy);
-        t.stressed.push_back(r.stressed);
-    }
-    for (const MeanLoad &load : world.sleep.loads) {
-        t.load_id.push_back(load.id);
-        t.load_plate.push_back(load.plate);
-        t.load_x.push_back(load.x);
-        t.load_y.push_back(load.y);
-        t.load_couple.push_back(load.couple);
-    }
-    exchange_sleep(file, t);
+    file.group("/sleep");
+    file.array("asleep", std::vector<uint8_t>(p.asleep.begin(), p.asleep.begin() + p.count));
+    for_each_of_repose([&](const char *name, auto member) {
+        std::vector<double> values;
+        for (int64_t i = 0; i < p.count; ++i)
+            values.push_back(p.repose[i].*member);
+        file.array(name, values);
+    });
+    for_each_of_load([&](const char *name, auto member) {
+        std::vector<std::decay_t<decltype(std::declval<MeanLoad>().*member)>> values;
+        for (const MeanLoad &load : world.sleep.loads)
+            values.push_back(load.*member);
+        file.array(name, values);
+    });
 }
 
 inline void read_sleep(CheckpointReader &file, World &world) {
-    SleepTable t;
-    exchange_sleep(file, t);
     Particles &p = world.particles;
     const auto require = [&](bool good, const char *what) {
         if (!good)
             file.refuse(format_text("sleep: %s", what));
     };
+    const auto require_finite = [&](const auto &values) {
+        require(std::all_of(values.begin(), values.end(), [](auto value) { return std::isfinite(double(value)); }),
+                "a number that is not finite");
+    };
     const auto n = static_cast<std::size_t>(p.count);
-    require(t.asleep.size() == n, "not one value for each particle");
-    for (const auto *array : {&t.quiet_for, &t.way_x, &t.way_y, &t.pressure, &t.sxx, &t.sxy, &t.fluidity, &t.gxx,
-                              &t.gxy, &t.gyy, &t.stressed}) {
-        require(array->size() == n, "not one value for each particle");
-        require(std::all_of(array->begin(), array->end(), [](double value) { return std::isfinite(value); }),
-                "a number that is not finite");
-    }
+    file.group("/sleep");
+    std::vector<uint8_t> asleep;
+    file.array("asleep", asleep);
+    require(asleep.size() == n, "not one value for each particle");
     for (std::size_t i = 0; i < n; ++i) {
-        require(t.asleep[i] <= 1, "asleep is neither 0 nor 1");
-        require(!t.asleep[i] || (p.vx[i] == 0 && p.vy[i] == 0), "a particle that sleeps and moves");
-        p.asleep[i] = t.asleep[i];
-        Repose &r = p.repose[i];
-        r.quiet_for = static_cast<float>(t.quiet_for[i]);
-        r.way_x = static_cast<float>(t.way_x[i]);
-        r.way_y = static_cast<float>(t.way_y[i]);
-        r.pressure = static_cast<float>(t.pressure[i]);
-        r.sxx = static_cast<float>(t.sxx[i]);
-        r.sxy = static_cast<float>(t.sxy[i]);
-        r.fluidity = static_cast<float>(t.fluidity[i]);
-        r.gxx = t.gxx[i];
-        r.gxy = t.gxy[i];
-        r.gyy = t.gyy[i];
-        r.stressed = t.stressed[i];
+        require(asleep[i] <= 1, "asleep is neither 0 nor 1");
+        require(!asleep[i] || (p.vx[i] == 0 && p.vy[i] == 0), "a particle that sleeps and moves");
+        p.asleep[i] = asleep[i];
     }
-    const std::size_t loads = t.load_id.size();
-    require(t.load_plate.size() == loads && t.load_x.size() == loads && t.load_y.size() == loads &&
-                t.load_couple.size() == loads,
-            "not as many loads as contacts");
-    world.sleep.loads.clear();
-    for (std::size_t k = 0; k < loads; ++k) {
-        require(t.load_id[k] >= 0 && t.load_id[k] < p.count, "a load by no particle");
-        require(t.load_plate[k] >= 0 && static_cast<std::size_t>(t.load_plate[k]) < world.walls.plates.size(),
+    for_each_of_repose([&](const char *name, auto member) {
+        std::vector<double> values;
+        file.array(name, values);
+        require(values.size() == n, "not one value for each particle");
+        require_finite(values);
+        for (std::size_t i = 0; i < n; ++i) {
+            auto &number = p.repose[i].*member;
+            number = static_cast<std::decay_t<decltype(number)>>(values[i]);
+        }
+    });
+    std::vector<MeanLoad> loads;
+    bool first = true; // of the arrays, which says how many there are
+    for_each_of_load([&](const char *name, auto member) {
+        std::vector<std::decay_t<decltype(std::declval<MeanLoad>().*member)>> values;
+        file.array(name, values);
+        if (first)
+            loads.resize(values.size());
+        first = false;
+        require(values.size() == loads.size(), "not as many loads as contacts");
+        require_finite(values);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            loads[k].*member = values[k];
+    });
+    for (const MeanLoad &load : loads) {
+        require(load.id >= 0 && load.id < p.count, "a load by no particle");
+        require(load.plate >= 0 && static_cast<std::size_t>(load.plate) < world.walls.plates.size(),
                 "a load on no plate");
-        require(std::isfinite(t.load_x[k]) && std::isfinite(t.load_y[k]) && std::isfinite(t.load_couple[k]),
-                "a number that is not finite");
-        world.sleep.loads.push_back({t.load_id[k], t.load_plate[k], t.load_x[k], t.load_y[k], t.load_couple[k]});
     }
+    world.sleep.loads = std::move(loads);
 }
 
 } // namespace gp::io

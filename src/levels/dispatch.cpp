@@ -30,7 +30,7 @@ bool processor_has_v3() {
 const gp::Entries &choose() {
     if (!processor_has_v3())
         return granperi_level_base;
-    // At the first call, once. NOLINTNEXTLINE(concurrency-mt-unsafe): a host that sets variables meanwhile is racing with itself
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): a host that sets variables meanwhile is racing with itself
     const char *wanted = std::getenv("GRANPERI_LEVEL");
     return wanted && std::strcmp(wanted, granperi_level_base.level) == 0 ? granperi_level_base : granperi_level_v3;
 }

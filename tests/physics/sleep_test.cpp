@@ -3,7 +3,7 @@
 #include <string>
 
 #include "../support/directory.hpp"
-#include "../support/scene.hpp"
+#include "../support/layer.hpp"
 
 using namespace test;
 
@@ -178,19 +178,12 @@ TEST(Sleep, AGateLetsAColumnGo) {
 
 // A layer without ends on a rough floor, mu_s = tan 21 degrees: it sleeps below that, and above it flows as without.
 TEST(Sleep, InclinedLayersSleepUpToTheirAngleAlone) {
-    constexpr double dl = 0.004, period = 12 * dl;
     for (const double angle : {20.8, 21.2}) {
         double speed[2];
         for (const int32_t sleep : {0, 1}) {
-            gp_config c = sleeping(dl, sleep);
-            c.periodic_x_max = period;
-            c.gravity_x = 9.81 * std::sin(degrees(angle));
-            c.gravity_y = -9.81 * std::cos(degrees(angle));
-            Sim sim(c);
-            sim.column(0, 0, period, 10 * dl);
-            sim.add(plate(period, 0, 0, 0));
-            sim.run(4);
-            const gp_state s = sim.state();
+            InclinedLayer layer(angle, sleep);
+            layer.sim.run(4);
+            const gp_state s = layer.sim.state();
             speed[sleep] = s.rms_speed;
             if (sleep) {
                 EXPECT_EQ(s.n_awake, angle < 21 ? 0 : s.n_particles) << angle;
@@ -205,26 +198,21 @@ TEST(Sleep, InclinedLayersSleepUpToTheirAngleAlone) {
 
 // A change of gravity wakes all: a layer that sleeps is tilted at once, stays at 20 degrees, and flows at 22.
 TEST(Sleep, GravityWakes) {
-    constexpr double dl = 0.004, period = 12 * dl;
-    gp_config c = sleeping(dl);
-    c.periodic_x_max = period;
-    Sim sim(c);
-    sim.column(0, 0, period, 10 * dl);
-    sim.add(plate(period, 0, 0, 0));
-    const auto tilt = [&](double angle) {
-        ASSERT_EQ(gp_set_gravity(sim, 9.81 * std::sin(degrees(angle)), -9.81 * std::cos(degrees(angle))), GP_OK);
+    InclinedLayer layer(0, 1);
+    Sim &sim = layer.sim;
+    const auto turn_to = [&](double angle) {
+        tilt(sim, angle);
         EXPECT_EQ(sim.state().n_awake, sim.state().n_particles);
     };
     sim.run(1);
     EXPECT_EQ(sim.state().n_awake, 0);
-    tilt(10);
+    turn_to(10);
     sim.run(2);
     EXPECT_EQ(sim.state().n_awake, 0);
     const gp_load load = sim.load(0); // of weight and shear
-    const double weight = 1550 * 9.81 * period * 10 * dl;
-    EXPECT_NEAR(load.fy, -weight * std::cos(degrees(10)), 0.005 * weight);
-    EXPECT_NEAR(load.fx, weight * std::sin(degrees(10)), 0.005 * weight);
-    tilt(22);
+    EXPECT_NEAR(load.fy, -layer.weight * std::cos(degrees(10)), 0.005 * layer.weight);
+    EXPECT_NEAR(load.fx, layer.weight * std::sin(degrees(10)), 0.005 * layer.weight);
+    turn_to(22);
     sim.run(4);
     EXPECT_EQ(sim.state().n_awake, sim.state().n_particles);
     EXPECT_GT(sim.state().rms_speed, 0.01);

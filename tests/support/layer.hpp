@@ -13,6 +13,31 @@ struct Law {
     double inertial(double mu) const { return i0 * (mu - mu_s) / (mu_2 - mu); }
 };
 
+// Ten rows in one piece on a rough floor, at an angle in degrees.
+struct InclinedLayer {
+    static constexpr double spacing = 0.004, period = 12 * spacing, thickness = 10 * spacing;
+    static constexpr double weight = 1550 * 9.81 * period * thickness; // N/m
+    explicit InclinedLayer(double angle, int32_t sleep = 0)
+        : sim([&] {
+              gp_config c = config(spacing);
+              c.sleep = sleep;
+              c.periodic_x_max = period;
+              c.gravity_x = 9.81 * std::sin(degrees(angle));
+              c.gravity_y = -9.81 * std::cos(degrees(angle));
+              return c;
+          }()) {
+        sim.column(0, 0, period, thickness);
+        sim.add(plate(period, 0, 0, 0));
+    }
+    Sim sim;
+};
+
+// Turns gravity to an angle in degrees.
+inline void tilt(gp_sim *sim, double angle) {
+    EXPECT_EQ(gp_set_gravity(sim, 9.81 * std::sin(degrees(angle)), -9.81 * std::cos(degrees(angle))), GP_OK)
+        << gp_last_error();
+}
+
 // Rows of particles, each a column, between y = 0 and thickness; a rough floor.
 struct Layer {
     static constexpr int across = 12;

@@ -227,7 +227,10 @@ TEST_F(CheckpointFileTest, WrongNumbersDoNoHarm) {
                 count(with_change([&](hid_t file) { change_array(file, name, value, periodic); }), name);
             for (const auto &[group, name] : names.numbers)
                 if (name != "threads") // 1024 are allowed
-                    count(with_change([&](hid_t file) { change_number(file, group, name, value); }), name);
+                    count(with_change([&, &group = group, &name = name](hid_t file) {
+                              change_number(file, group, name, value);
+                          }),
+                          name);
         }
         std::printf("%lld files refused, %lld harmless\n", static_cast<long long>(refused),
                     static_cast<long long>(harmless));
@@ -236,9 +239,10 @@ TEST_F(CheckpointFileTest, WrongNumbersDoNoHarm) {
         for (const std::string &name : names.arrays)
             EXPECT_EQ(with_change([&](hid_t file) { H5Ldelete(file, name.c_str(), H5P_DEFAULT); }), GP_E_IO) << name;
         for (const auto &[group, name] : names.numbers)
-            EXPECT_EQ(
-                with_change([&](hid_t file) { H5Adelete_by_name(file, group.c_str(), name.c_str(), H5P_DEFAULT); }),
-                GP_E_IO)
+            EXPECT_EQ(with_change([&group = group, &name = name](hid_t file) {
+                          H5Adelete_by_name(file, group.c_str(), name.c_str(), H5P_DEFAULT);
+                      }),
+                      GP_E_IO)
                 << name;
     }
 }
