@@ -33,7 +33,9 @@ LIMITS_CAPTION = (
     "paper's schemes; in the others it is 0.6 of the dotted one"
 )
 CREEP_CAPTION = "Peak and rms speed against time, by time step (full) and by delta (dashed); 1e-9 and less drawn as 1e-9"
-DRIFT_CAPTION = "Left: largest displacement since 3 s. Right: kinetic energy. L/dl = 16 unless it says otherwise"
+DRIFT_CAPTION = (
+    "Left: largest displacement since 3 s. Right: kinetic energy. The lines of a scheme are from light to dark in the order of the table above"
+)
 
 
 def compose(collection: Collection, drawn: set[str]) -> str:
