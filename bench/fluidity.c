@@ -1,49 +1,35 @@
 /* Granular fluidity: runs one case and prints what came out and what it cost, as lines of "name value unit". A profile is lines of
  * three numbers: depth in grains, velocity over the lid's, the same of the layer in one dimension (nan without fluidity). */
-#include <granperi/gp.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
-#include "../examples/c/example.h"
-#include "fluid_layer.h"
+#include "fluidity.h"
+#include "marks.h"
 #include "options.h"
 
 static const char usage[] = "usage: fluidity CASE [options]\n\n"
-                            "cases: couette, shear, incline, collapse\n";
+                            "cases: couette, shear, annular, incline, collapse\n";
 
 static const double degree = 3.14159265358979323846 / 180, gravity = 9.81;
 enum { ACROSS = 12, MOST_ROWS = 1000 }; /* spacings in the period of layers */
 
-typedef struct choices {
-    double per_grain;   /* spacings in a grain */
-    double horizon;     /* spacings */
-    double amplitude;   /* -, of the fluidity */
-    double speed;       /* m/s, of the lid */
-    double sound_speed; /* m/s */
-    double angle;       /* degrees, of the incline */
-    double rows;        /* spacings in the layer on the incline, and in the column's width */
-    double end;         /* s */
-    double jitter;      /* spacings */
-    const char *preset; /* scheme */
-} choices;
-
-static gp_state state_of(gp_sim *sim) {
+gp_state fluid_state(gp_sim *sim) {
     gp_state state = {0};
     state.struct_size = sizeof state;
     CHECK(gp_get_state(sim, &state));
     return state;
 }
 
-static gp_load load_of(gp_sim *sim, int32_t plate) {
+gp_load fluid_load(gp_sim *sim, int32_t plate) {
     gp_load load = {0};
     load.struct_size = sizeof load;
     CHECK(gp_get_plate_load(sim, plate, &load));
     return load;
 }
 
-static double *field(gp_sim *sim, uint32_t bit, int64_t count) {
+double *fluid_field(gp_sim *sim, uint32_t bit, int64_t count) {
     double *values = malloc(sizeof *values * (size_t)count);
     if (!values)
         exit(1);
@@ -51,15 +37,15 @@ static double *field(gp_sim *sim, uint32_t bit, int64_t count) {
     return values;
 }
 
-static void print_cost(gp_sim *sim) {
-    const gp_state s = state_of(sim);
+void fluid_print_cost(gp_sim *sim) {
+    const gp_state s = fluid_state(sim);
     printf("time %.6g s\n", s.time);
     printf("particles %lld 1\n", (long long)s.n_particles);
     printf("steps %lld 1\n", (long long)s.step);
     printf("cpu_seconds %.3f s\n", (double)clock() / CLOCKS_PER_SEC);
 }
 
-static gp_config config_of(const choices *c, double spacing) {
+gp_config fluid_config(const choices *c, double spacing) {
     static const char *const names[] = {"default", "paper"};
     static const int32_t presets[] = {GP_PRESET_DEFAULT, GP_PRESET_PAPER};
     gp_config config;
@@ -73,7 +59,7 @@ static gp_config config_of(const choices *c, double spacing) {
     return config;
 }
 
-static gp_material beads(const choices *c, double diameter) {
+gp_material fluid_beads(const choices *c, double diameter) {
     gp_material m;
     CHECK(gp_material_init(&m, sizeof m));
     m.grain_diameter = diameter;
@@ -81,7 +67,7 @@ static gp_material beads(const choices *c, double diameter) {
     return m;
 }
 
-static fluid_layer law_of(const gp_material *m) {
+fluid_layer fluid_law(const gp_material *m) {
     fluid_layer f = {0};
     f.mu_s = m->mu_s;
     f.mu_2 = m->mu_2;
@@ -116,7 +102,7 @@ static int32_t add_floor(gp_sim *sim, double left, double right, double vx, int3
 }
 
 /* Over a layer that is `width` long, at the height y. */
-static int32_t add_lid(gp_sim *sim, double width, double y, double load, double vx) {
+static int32_t add_lid(gp_sim *sim, double width, double y, double load, double vx, int32_t fluidity) {
     gp_plate plate;
     int32_t id;
     CHECK(gp_plate_init(&plate, sizeof plate));
@@ -124,6 +110,7 @@ static int32_t add_lid(gp_sim *sim, double width, double y, double load, double 
     plate.y0 = plate.y1 = y;
     plate.normal_pressure = load;
     plate.vx = vx;
+    plate.fluidity = fluidity;
     CHECK(gp_add_plate(sim, &plate, &id));
     return id;
 }
@@ -134,8 +121,8 @@ typedef struct profile {
 } profile;
 
 static void add_to_profile(profile *f, gp_sim *sim, double top, double spacing) {
-    const int64_t count = state_of(sim).n_particles;
-    double *y = field(sim, GP_FIELD_Y, count), *vx = field(sim, GP_FIELD_VX, count);
+    const int64_t count = fluid_state(sim).n_particles;
+    double *y = fluid_field(sim, GP_FIELD_Y, count), *vx = fluid_field(sim, GP_FIELD_VX, count);
     int64_t i;
     for (i = 0; i < count; ++i) {
         const int row = (int)fmin(fmax(floor((top - y[i]) / spacing), 0), f->rows - 1);
@@ -159,11 +146,13 @@ static double velocity_at(const profile *f, double depth) {
 /* The cell of Jin et al. (2021) with gravity: means of the second half. */
 static void couette(const choices *c) {
     static const double grains[] = {1, 2, 3, 5};
+    static const char *const lids[] = {"free", "zero"};
+    const int zero = bench_choice("--lid", c->lid, 2, lids);
     const double d = 0.001, h = 10 * d, load = 102.3, spacing = d / c->per_grain;
-    const gp_material m = beads(c, d);
+    const gp_material m = fluid_beads(c, d);
     const int samples = 50;
-    gp_config config = config_of(c, spacing);
-    fluid_layer exact = law_of(&m);
+    gp_config config = fluid_config(c, spacing);
+    fluid_layer exact = fluid_law(&m);
     static profile mean;
     gp_sim *sim;
     gp_load before, after;
@@ -174,14 +163,14 @@ static void couette(const choices *c) {
     CHECK(gp_create(&config, &sim));
     add_column(sim, &m, 0, config.periodic_x_max, h);
     add_floor(sim, 0, config.periodic_x_max, 0, GP_FLUIDITY_FREE);
-    lid = add_lid(sim, config.periodic_x_max, h, load, c->speed);
+    lid = add_lid(sim, config.periodic_x_max, h, load, c->speed, zero ? GP_FLUIDITY_ZERO : GP_FLUIDITY_FREE);
     CHECK(gp_run(sim, 0.5 * c->end));
-    before = load_of(sim, lid);
+    before = fluid_load(sim, lid);
     mean.rows = (int)lround(h / spacing);
     for (k = 1; k <= samples; ++k) {
         double stress;
         CHECK(gp_run(sim, 0.5 * c->end * (1 + (double)k / samples)));
-        after = load_of(sim, lid);
+        after = fluid_load(sim, lid);
         stress = fabs(after.fx) / config.periodic_x_max;
         least = fmin(least, stress);
         most = fmax(most, stress);
@@ -189,6 +178,7 @@ static void couette(const choices *c) {
     }
     if (m.nonlocal_amplitude > 0) {
         exact.thickness = h;
+        exact.zero_top = zero;
         exact.load = load;
         exact.weight = m.volume_fraction * m.grain_density * gravity;
         fluid_layer_drag(&exact, c->speed);
@@ -208,16 +198,16 @@ static void couette(const choices *c) {
         if (m.nonlocal_amplitude > 0)
             printf("u_%g_exact %.4f of the lid's\n", grains[k], fluid_layer_velocity(&exact, grains[k] * d) / c->speed);
     }
-    print_cost(sim);
+    fluid_print_cost(sim);
     gp_destroy(sim);
 }
 
 /* Without gravity: uniform shear at 50 1/s, friction of the floor beside mu(I). */
 static void shear(const choices *c) {
     const double d = 0.002, h = 10 * d, load = 500, rate = 50, spacing = d / c->per_grain;
-    const gp_material m = beads(c, d);
+    const gp_material m = fluid_beads(c, d);
     const double inertial = rate * d / sqrt(load / m.grain_density);
-    gp_config config = config_of(c, spacing);
+    gp_config config = fluid_config(c, spacing);
     static profile mean;
     gp_sim *sim;
     gp_load before, after;
@@ -229,29 +219,29 @@ static void shear(const choices *c) {
     CHECK(gp_create(&config, &sim));
     add_column(sim, &m, 0, config.periodic_x_max, h);
     floor = add_floor(sim, 0, config.periodic_x_max, -rate * h / 2, GP_FLUIDITY_FREE);
-    lid = add_lid(sim, config.periodic_x_max, h, load, rate * h / 2);
+    lid = add_lid(sim, config.periodic_x_max, h, load, rate * h / 2, GP_FLUIDITY_FREE);
     CHECK(gp_run(sim, 0.6 * c->end));
-    before = load_of(sim, floor);
+    before = fluid_load(sim, floor);
     CHECK(gp_run(sim, c->end));
-    after = load_of(sim, floor);
+    after = fluid_load(sim, floor);
     mean.rows = (int)lround(h / spacing);
-    add_to_profile(&mean, sim, h + load_of(sim, lid).dy, spacing);
+    add_to_profile(&mean, sim, h + fluid_load(sim, lid).dy, spacing);
     for (k = 0; k < mean.rows; ++k)
         worst = fmax(worst, fabs(mean.u[k] / mean.count[k] / (rate * h) - 0.5 + mean.depth[k] / mean.count[k] / h));
     printf("friction %.5f 1\n", (after.impulse_x - before.impulse_x) / -(after.impulse_y - before.impulse_y));
     printf("friction_exact %.5f 1\n", m.mu_s + (m.mu_2 - m.mu_s) * inertial / (m.i0 + inertial));
     printf("from_linear %.4f of the lid's\n", worst);
-    print_cost(sim);
+    fluid_print_cost(sim);
     gp_destroy(sim);
 }
 
 /* A layer whose fluidity is 0 at its base: flows, or comes to rest. */
 static void incline(const choices *c) {
     const double d = 0.001, spacing = d / c->per_grain, height = c->rows * spacing, angle = c->angle * degree;
-    const gp_material m = beads(c, d);
-    const fluid_layer law = law_of(&m);
+    const gp_material m = fluid_beads(c, d);
+    const fluid_layer law = fluid_law(&m);
     const double stop = fluid_layer_stopping_height(&law, tan(angle));
-    gp_config config = config_of(c, spacing);
+    gp_config config = fluid_config(c, spacing);
     gp_sim *sim;
     double *g, largest = 0;
     int64_t count, i;
@@ -262,44 +252,28 @@ static void incline(const choices *c) {
     add_column(sim, &m, 0, config.periodic_x_max, height);
     add_floor(sim, 0, config.periodic_x_max, 0, GP_FLUIDITY_ZERO);
     CHECK(gp_run(sim, c->end));
-    count = state_of(sim).n_particles;
-    g = field(sim, GP_FIELD_FLUIDITY, count);
+    count = fluid_state(sim).n_particles;
+    g = fluid_field(sim, GP_FIELD_FLUIDITY, count);
     for (i = 0; i < count; ++i)
         largest = fmax(largest, g[i]);
     free(g);
     printf("stopping_height %.4f grains\n", stop / d);
     printf("height %.4f of the stopping height\n", height / stop);
     printf("fluidity %.4g 1/s\n", largest);
-    printf("speed %.4g m/s\n", state_of(sim).rms_speed);
-    print_cost(sim);
+    printf("speed %.4g m/s\n", fluid_state(sim).rms_speed);
+    fluid_print_cost(sim);
     gp_destroy(sim);
-}
-
-static int rising(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double within(gp_sim *sim, double share) { /* m, of the middle, this share of the particles */
-    const int64_t count = state_of(sim).n_particles;
-    double *x = field(sim, GP_FIELD_X, count), answer;
-    int64_t i;
-    for (i = 0; i < count; ++i)
-        x[i] = fabs(x[i]);
-    qsort(x, (size_t)count, sizeof *x, rising);
-    answer = x[(int64_t)(share * (double)count)];
-    free(x);
-    return answer;
 }
 
 /* The column of a = 1.25, released at once: height and width over L, rest, and what they do after 2 s. */
 static void collapse(const choices *c) {
     const double width = 0.08, height = 0.05, spacing = width / c->rows;
-    const gp_material m = beads(c, 0.002);
+    const gp_material m = fluid_beads(c, 0.002);
     const double energy = m.volume_fraction * m.grain_density * gravity * width * height * height / 2;
-    gp_config config = config_of(c, spacing);
+    gp_config config = fluid_config(c, spacing);
     gp_sim *sim;
-    double rest = NAN, peak_2 = NAN, half_2 = NAN;
+    const extent feet = {-width / 2, width / 2, width / 2, 2};
+    double rest = NAN, peak_2 = NAN, bulk_2 = NAN;
     int k;
     CHECK(gp_create(&config, &sim));
     add_column(sim, &m, -width / 2, width, height);
@@ -307,7 +281,7 @@ static void collapse(const choices *c) {
     for (k = 1; k <= (int)lround(c->end / 0.02); ++k) {
         gp_state s;
         CHECK(gp_run(sim, 0.02 * k));
-        s = state_of(sim);
+        s = fluid_state(sim);
         if (!s.at_rest)
             rest = NAN;
         else if (isnan(rest))
@@ -316,16 +290,16 @@ static void collapse(const choices *c) {
             printf("peak_042 %.4f of L\n", s.peak_height / width);
         if (k == 100) {
             peak_2 = s.peak_height;
-            half_2 = within(sim, 0.9);
+            bulk_2 = run_out_of(sim, &feet, 0.9);
             printf("peak %.4f of L\n", peak_2 / width);
-            printf("half %.4f of L, within which 90 %% lie\n", half_2 / width);
+            printf("run_out_90 %.4f L0\n", bulk_2);
             printf("kinetic %.3g of the potential energy at the start\n", s.kinetic / energy);
         }
     }
     printf("rest %.3g s\n", rest);
-    printf("peak_drift %.2e of that at 2 s\n", state_of(sim).peak_height / peak_2 - 1);
-    printf("half_drift %.2e of that at 2 s\n", within(sim, 0.9) / half_2 - 1);
-    print_cost(sim);
+    printf("peak_drift %.2e of that at 2 s\n", fluid_state(sim).peak_height / peak_2 - 1);
+    printf("run_out_90_drift %.2e of that at 2 s\n", run_out_of(sim, &feet, 0.9) / bulk_2 - 1);
+    fluid_print_cost(sim);
     gp_destroy(sim);
 }
 
@@ -336,23 +310,26 @@ int main(int argc, char **argv) {
         double end, sound_speed; /* its own */
     } cases[] = {{"couette", couette, 1, 5},
                  {"shear", shear, 0.25, 21},
+                 {"annular", fluid_annular, 0.5, 11.4},
                  {"incline", incline, 2, 3},
                  {"collapse", collapse, 2, 0}};
     const int n = (int)(sizeof cases / sizeof cases[0]);
-    choices c = {2, NAN, 0.48, 0.003, NAN, 24, 40, NAN, 0, "default"};
+    choices c = {2, NAN, 0.48, 0.003, NAN, 24, 40, NAN, 0, "default", "free"};
     const bench_option options[] = {
         {"--per-grain", "spacings in a grain, of layers [2]", BENCH_WHOLE, &c.per_grain, 1, 64},
         {"--horizon", "spacings [the preset's]", BENCH_NUMBER, &c.horizon, 1.8, 8},
         {"--amplitude", "of the fluidity; 0: local [0.48]", BENCH_NUMBER, &c.amplitude, 0, 10},
         {"--speed", "m/s, of the lid of the Couette cell [0.003]", BENCH_NUMBER, &c.speed, 1e-6, 10},
-        {"--sound-speed", "m/s [5, 21, 3, by the library]", BENCH_NUMBER, &c.sound_speed, 1e-3, 1e4},
+        {"--sound-speed", "m/s [5, 21, 11.4, 3, by the library]", BENCH_NUMBER, &c.sound_speed, 1e-3, 1e4},
         {"--angle", "degrees, of the incline [24]", BENCH_NUMBER, &c.angle, 21.1, 31.9},
         {"--rows", "spacings in the layer on the incline, and in the width of the column [40]", BENCH_WHOLE, &c.rows, 1,
          1000},
         {"--jitter", "spacings [0]", BENCH_NUMBER, &c.jitter, 0, 0.3},
-        {"--end", "s, end of the run; of a collapse 2 or more [1, 0.25, 2, 2]", BENCH_NUMBER, &c.end, 1e-2, 1e4},
+        {"--end", "s, end of the run; of a collapse 2 or more [1, 0.25, 0.5, 2, 2]", BENCH_NUMBER, &c.end, 1e-2, 1e4},
         {"--preset", "default or paper, of cells and columns; paper without fluidity [default]", BENCH_TEXT, &c.preset,
          0, 0},
+        {"--lid", "free: the lid of the Couette cell passes no flux; zero: its grains are glued to it [free]",
+         BENCH_TEXT, &c.lid, 0, 0},
     };
     int k;
     example_program(argv[0]);

@@ -6,13 +6,15 @@
 #include <time.h>
 
 #include "../examples/c/example.h" /* CHECK */
+#include "marks.h"
 #include "roughness.h"
 
 const char *const follow_header =
     "time,peak_height,x_left,x_right,kinetic_share,error_share,rms_speed,max_speed,max_pressure,pressure_noise,unseen,"
     "penalty_share,drift,drift_rms,at_rest,steps";
 
-static const double gravity = 9.81; /* m/s2, the library's default */
+static const double gravity = 9.81;                            /* m/s2, the library's default */
+static const double landed = 0.05, early = 0.1, Nearly = 1e-9; /* s */
 
 static gp_state state_of(gp_sim *sim) {
     gp_state state = {.struct_size = sizeof state};
@@ -56,13 +58,15 @@ static void look(drift *d, gp_sim *sim, int64_t n) {
     free(now);
 }
 
-/* Mean of both sides; with one side its wall is at 0. */
-static double run_out(const trial *t, double left, double right) {
-    return (t->sides == 1 ? right : (right - left) / 2) / trial_reference(t) - 1;
+static extent extent_of(const trial *t) {
+    const extent e = {t->sides == 1 ? 0 : -t->length / 2, t->sides == 1 ? t->length : t->length / 2, trial_reference(t),
+                      (int)t->sides};
+    return e;
 }
 
 /* Outermost points at which the surface is above the threshold, of stations half a spacing apart. */
 static double front_of(gp_sim *sim, const trial *t, const gp_state *s, double threshold) {
+    const extent e = extent_of(t);
     const double dl = trial_spacing(t);
     const int64_t n = (int64_t)ceil(fmax(0, s->x_right - s->x_left) / (dl / 2)) + 1;
     double *x = allocate(2 * n), *height = x + n, left = INFINITY, right = -INFINITY;
@@ -76,26 +80,7 @@ static double front_of(gp_sim *sim, const trial *t, const gp_state *s, double th
             right = fmax(right, x[k]);
         }
     free(x);
-    return run_out(t, left, right);
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* A share of the mass lies beyond each end; between two particles the quantile goes linearly. */
-static double spread_of(gp_sim *sim, const trial *t, int64_t n, double share) {
-    double *x = allocate(n);
-    const double place = share * (double)n - 0.5, part = place - floor(place);
-    const int64_t k = (int64_t)fmax(0, floor(place));
-    double left, right;
-    CHECK(gp_copy_field(sim, GP_FIELD_X, x, n));
-    qsort(x, (size_t)n, sizeof *x, ascending);
-    left = x[k] + part * (x[k + 1] - x[k]);
-    right = x[n - 1 - k] - part * (x[n - 1 - k] - x[n - 2 - k]);
-    free(x);
-    return run_out(t, left, right);
+    return run_out_between(&e, left, right);
 }
 
 static double memory_of(gp_sim *sim) {
@@ -129,6 +114,8 @@ static void update(outcome *o, const trial *t, const following *f) {
     o->gain = fmax(o->gain, (s->kinetic + s->potential + s->elastic) / o->energy - 1);
     o->error = fmax(o->error, fabs(s->energy_error) / o->energy);
     o->pressure = fmax(o->pressure, s->max_pressure / unit);
+    if (s->time >= landed)
+        o->late_pressure = fmax(o->late_pressure, s->max_pressure / unit);
     if (s->time >= 0.9 * f->end)
         o->latest = fmax(o->latest, o->kinetic);
 }
@@ -136,7 +123,8 @@ static void update(outcome *o, const trial *t, const following *f) {
 outcome follow(gp_sim *sim, const trial *t, const following *f) {
     const clock_t begin = clock(); /* the CPU time of all threads */
     const double dl = trial_spacing(t);
-    outcome o = {.status = GP_OK, .state = state_of(sim), .rest = NAN, .gain = -INFINITY};
+    outcome o = {.status = GP_OK, .state = state_of(sim), .rest = NAN, .gain = -INFINITY, .early = NAN};
+    const extent e = extent_of(t);
     drift d = {0, NULL, NULL, 0, 0};
     roughness r = {0, 0};
     int64_t row;
@@ -145,6 +133,8 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
         fprintf(f->table, "%s\n", follow_header);
     for (row = 0;; ++row) {
         update(&o, t, f);
+        if (isnan(o.early) && o.state.time > early - Nearly)
+            o.early = mean_distance(sim, &e);
         if (f->table) {
             if (o.state.time >= f->drift_from)
                 look(&d, sim, o.state.n_particles);
@@ -164,10 +154,10 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
             break;
     }
     o.peak = o.state.peak_height;
-    o.tip = run_out(t, o.state.x_left, o.state.x_right);
+    o.tip = run_out_between(&e, o.state.x_left, o.state.x_right);
     o.front = front_of(sim, t, &o.state, 0.05 * trial_height(t));
-    o.spread = spread_of(sim, t, o.state.n_particles, 0.01);
-    o.bulk = spread_of(sim, t, o.state.n_particles, 0.05);
+    o.spread = run_out_of(sim, &e, 0.98);
+    o.bulk = run_out_of(sim, &e, 0.90);
     o.memory = memory_of(sim);
     o.drift = d.largest / dl;
     o.seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;

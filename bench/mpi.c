@@ -17,12 +17,14 @@ static double cpu(void) {
 
 /* By MPI's profiling interface: what these calls take of the processor, waiting among it. */
 static double in_mpi;
-#define TIMED(call)                                                                                                                \
-    const double begun = cpu();                                                                                                    \
-    const int status = call;                                                                                                       \
-    in_mpi += cpu() - begun;                                                                                                       \
+#define TIMED(call)                                                                                                    \
+    const double begun = cpu();                                                                                        \
+    const int status = call;                                                                                           \
+    in_mpi += cpu() - begun;                                                                                           \
     return status
-int MPI_Waitall(int n, MPI_Request *requests, MPI_Status *statuses) { TIMED(PMPI_Waitall(n, requests, statuses)); }
+int MPI_Waitall(int n, MPI_Request *requests, MPI_Status *statuses) {
+    TIMED(PMPI_Waitall(n, requests, statuses));
+}
 int MPI_Allreduce(const void *in, void *out, int n, MPI_Datatype type, MPI_Op op, MPI_Comm comm) {
     TIMED(PMPI_Allreduce(in, out, n, type, op, comm));
 }
@@ -79,19 +81,26 @@ int main(int argc, char **argv) {
     MPI_Barrier(MPI_COMM_WORLD);
     const double begun = cpu(), wall = MPI_Wtime(), mpi = in_mpi;
     check(gp_step(sim, steps));
-    double spent[3] = {cpu() - begun, in_mpi - mpi, MPI_Wtime() - wall}, work = spent[0] - spent[1], most = work, all = work;
+    double spent[3] = {cpu() - begun, in_mpi - mpi, MPI_Wtime() - wall}, work = spent[0] - spent[1], most = work,
+           all = work;
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, spent, 3, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     const gp_plan_entry after = entry_of(sim, "messages"), reduced_after = entry_of(sim, "reductions");
+    /* Messages and bytes that a process sends in a step: in all, and of the one that sends most. */
+    double sent[2] = {(double)(after.calls - before.calls) / steps, (double)(after.bytes - before.bytes) / steps},
+           most_sent[2];
+    MPI_Allreduce(sent, most_sent, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, sent, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     check(gp_get_particles(sim, GP_FIELD_ID, &own));
     double n = (double)own.count;
     MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     if (rank == 0)
-        printf("particles %.0f ranks %d: outside of MPI %.1f ns/particle-step in all, busiest %.4f s, with MPI %.4f s, wall %.4f s; per step: "
-               "%.2f messages, %.0f bytes, %.2f reductions\n",
-               serial ? n / ranks : n, ranks, 1e9 * all / n / steps, most, spent[0], spent[2], (double)(after.calls - before.calls) / steps,
-               (double)(after.bytes - before.bytes) / steps, (double)(reduced_after.calls - reduced.calls) / steps);
+        printf("particles %.0f ranks %d: outside of MPI %.1f ns/particle-step in all, busiest %.4f s, with MPI %.4f s, "
+               "wall %.4f s; per step: "
+               "%.2f messages in all, %.2f of one process, %.0f bytes in all, %.0f of one, %.2f reductions\n",
+               serial ? n / ranks : n, ranks, 1e9 * all / n / steps, most, spent[0], spent[2], sent[0], most_sent[0],
+               sent[1], most_sent[1], (double)(reduced_after.calls - reduced.calls) / steps);
     gp_destroy(sim);
     MPI_Finalize();
     return 0;

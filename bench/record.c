@@ -37,12 +37,28 @@ static double surface_at(gp_sim *sim, double x) {
     return height;
 }
 
+typedef struct run_outs {
+    double most, nearly_all, tip; /* of 90 and 98 % of the mass, of the connected deposit's ends */
+} run_outs;
+
+static run_outs run_outs_of(gp_sim *sim, const recording *r, const gp_state *s) {
+    const run_outs none = {NAN, NAN, NAN};
+    run_outs w;
+    if (r->extent.reference == 0)
+        return none;
+    w.most = run_out_of(sim, &r->extent, 0.90);
+    w.nearly_all = run_out_of(sim, &r->extent, 0.98);
+    w.tip = run_out_between(&r->extent, s->x_left, s->x_right);
+    return w;
+}
+
 static void write_series(FILE *file, gp_sim *sim, const recording *r, const gp_state *s, double energy) {
+    const run_outs w = run_outs_of(sim, r, s);
     if (!file)
         return;
-    fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d\n", s->time, s->peak_height, s->peak_x,
-            s->x_left, s->x_right, surface_at(sim, r->axis), s->rms_speed, s->max_speed, s->kinetic / energy,
-            s->energy_error / energy, s->max_pressure, s->at_rest);
+    fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d\n", s->time, s->peak_height,
+            s->peak_x, w.most, w.nearly_all, w.tip, surface_at(sim, r->axis), s->rms_speed, s->max_speed,
+            s->kinetic / energy, s->energy_error / energy, s->max_pressure, s->at_rest);
 }
 
 static double *allocate(int64_t n) {
@@ -169,10 +185,12 @@ static void print_summary(const recording *r, gp_sim *sim, const gp_state *s, do
     printf("axis_height         %.6g m\n", surface_at(sim, r->axis));
     printf("x_left              %.6g m\n", s->x_left);
     printf("x_right             %.6g m\n", s->x_right);
-    if (r->reference > 0) {
-        const double right = (s->x_right - r->right) / r->reference, left = (r->left - s->x_left) / r->reference;
-        printf("run_out             %.6g L0\n", r->sides == 1 ? right : (left + right) / 2);
-        printf("reference_length    %.6g m\n", r->reference);
+    if (r->extent.reference > 0) {
+        const run_outs w = run_outs_of(sim, r, s);
+        printf("run_out_90          %.6g L0\n", w.most);
+        printf("run_out_98          %.6g L0\n", w.nearly_all);
+        printf("tip                 %.6g L0\n", w.tip);
+        printf("reference_length    %.6g m\n", r->extent.reference);
     }
     printf("rms_speed           %.6g m/s\n", s->rms_speed);
     printf("kinetic_share       %.6g E0\n", s->kinetic / energy);
@@ -196,9 +214,10 @@ void record_run(gp_sim *sim, const recording *r) {
     double rest_since = 0, highest_pressure = s.max_pressure;
     int was_at_rest = 0, k;
     long rows = 0;
-    f.series = open_table(r, "series",
-                          "time,peak_height,peak_x,x_left,x_right,axis_height,rms_speed,max_speed,kinetic_share,"
-                          "energy_error_share,max_pressure,at_rest");
+    f.series =
+        open_table(r, "series",
+                   "time,peak_height,peak_x,run_out_90,run_out_98,tip,axis_height,rms_speed,max_speed,kinetic_share,"
+                   "energy_error_share,max_pressure,at_rest");
     f.surface = open_table(r, "surface", "time,x,height,connected");
     f.section = open_table(r, "section", "time,y,x,vx,speed,particles");
     f.interface = open_table(r, "interface", "time,y,x");

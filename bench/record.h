@@ -4,6 +4,7 @@
 
 #include <granperi/gp.h>
 
+#include "marks.h"
 #include "options.h"
 
 typedef struct recording {
@@ -14,9 +15,7 @@ typedef struct recording {
     bench_list times;    /* s, of surfaces, sections and interfaces */
     bench_list sections; /* m, heights of the horizontal sections */
     double axis;         /* m, x at which the height is recorded */
-    double left, right;  /* m, feet of the material at the start */
-    double reference;    /* m, L0 of the run-out; 0: none is defined */
-    int sides;           /* to which it can run out: 1 (the right), or 2 */
+    extent extent;       /* what run-outs are counted from; reference 0: none is defined */
     int32_t columns;     /* 2: there is an interface between columns 0 and 1 */
 } recording;
 

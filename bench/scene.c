@@ -82,9 +82,7 @@ static void add_both_side(gp_sim *sim, const choices *c, recording *r) {
     example_add_floor(sim, -reach, reach);
     example_add_gate(sim, -half, EXAMPLE_MATERIAL_RIGHT, height, r->spacing, c->lift_time);
     example_add_gate(sim, half, EXAMPLE_MATERIAL_LEFT, height, r->spacing, c->lift_time);
-    r->left = -half;
-    r->right = r->reference = half;
-    r->sides = 2;
+    r->extent = (extent){-half, half, half, 2};
 }
 
 static void add_one_side(gp_sim *sim, const choices *c, recording *r) {
@@ -97,8 +95,7 @@ static void add_one_side(gp_sim *sim, const choices *c, recording *r) {
     CHECK(gp_add_plate(sim, &wall, NULL));
     example_add_floor(sim, 0, length + 4 * height + 20 * r->spacing);
     example_add_gate(sim, length, EXAMPLE_MATERIAL_LEFT, height, r->spacing, c->lift_time);
-    r->right = r->reference = length;
-    r->sides = 1;
+    r->extent = (extent){0, length, length, 1};
     r->axis = 2 * r->spacing; /* nearer, the wall takes the place of material in the smoothed volume fraction */
 }
 
@@ -116,8 +113,6 @@ static void add_colliding(gp_sim *sim, const choices *c, recording *r) {
     example_add_gate(sim, -gap / 2, EXAMPLE_MATERIAL_LEFT, left, r->spacing, c->lift_time);
     example_add_gate(sim, gap / 2, EXAMPLE_MATERIAL_RIGHT, right, r->spacing, c->lift_time);
     example_add_gate(sim, x_right, EXAMPLE_MATERIAL_LEFT, right, r->spacing, c->lift_time);
-    r->left = x_left;
-    r->right = x_right;
     r->columns = 2;
 }
 

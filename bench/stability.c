@@ -43,11 +43,13 @@ static void print_outcome(const outcome *o, double seconds, double particle_step
     printf("front               %.8g L0\n", o->front);
     printf("spread              %.8g L0\n", o->spread);
     printf("bulk                %.8g L0\n", o->bulk);
+    printf("early               %.8g L0\n", o->early);
     printf("rest                %.6g s\n", o->rest);
     printf("gain                %.6g E0\n", o->gain);
     printf("error               %.6g E0\n", o->error);
     printf("kinetic             %.6g E0\n", o->kinetic);
     printf("pressure            %.6g rho g H\n", o->pressure);
+    printf("late_pressure       %.6g rho g H\n", o->late_pressure);
     printf("memory              %.6g bytes\n", o->memory);
     printf("drift               %.6g dl\n", o->drift);
     printf("friction_share      %.6g of dissipated\n",
@@ -74,7 +76,8 @@ static void run(trial *t, choices *c) {
     int k;
     memset(&first, 0, sizeof first);
     if (seeds)
-        fprintf(seeds, "seed,diverged,peak,tip,front,spread,bulk,rest,error,gain,kinetic,pressure,steps\n");
+        fprintf(seeds, "seed,diverged,peak,tip,front,spread,bulk,early,rest,error,gain,kinetic,pressure,late_pressure,"
+                       "steps\n");
     for (k = 0; k < (int)c->seeds; ++k, ++t->seed) {
         gp_sim *sim = trial_create(t);
         c->follow.table = k == 0 ? bench_open_table(c->prefix, "series") : NULL;
@@ -86,9 +89,9 @@ static void run(trial *t, choices *c) {
         if (k == 0)
             first = o;
         if (seeds)
-            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
-                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.bulk, o.rest, o.error, o.gain,
-                    o.kinetic, o.pressure, (long long)o.state.step);
+            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
+                    o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.bulk, o.early, o.rest, o.error,
+                    o.gain, o.kinetic, o.pressure, o.late_pressure, (long long)o.state.step);
     }
     bench_close_table(seeds);
     print_outcome(&first, seconds, particle_steps);

@@ -67,6 +67,7 @@ void trial_options(trial *t, bench_option *options) {
         {"--seed", "of the jitter [0]", BENCH_WHOLE, &t->seed, 0, 1e9},
         {"--threads", "0: the OpenMP default [1]", BENCH_WHOLE, &t->threads, 0, 1024},
         {"--mu-s-degrees", "friction angle at rest [21]", BENCH_NUMBER, &t->mu_s_degrees, 0, 89},
+        {"--mu-2-degrees", "friction angle of fast flow [32]", BENCH_NUMBER, &t->mu_2_degrees, 0, 89},
         {"--diameter", "m, of the grains [0.002]", BENCH_NUMBER, &t->diameter, 1e-9, 1e6},
         {"--mode", "of the layer's initial velocity: none, checkerboard or stripes [none]", BENCH_TEXT, &t->mode, 0, 0},
         {"--mode-speed", "its amplitude over c0 [1e-4]", BENCH_NUMBER, &t->mode_speed, 0, 1},

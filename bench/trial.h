@@ -25,7 +25,7 @@ typedef struct trial {
     double mode_speed; /* its amplitude over c0 */
 } trial;
 
-enum { TRIAL_OPTIONS = 26 };
+enum { TRIAL_OPTIONS = 27 };
 
 trial trial_defaults(trial_scene scene);
 

@@ -10,7 +10,8 @@
 
 static const char usage[] =
     "usage: walls CASE [options]\n\n"
-    "cases: slide_coulomb, slide_inertial, incline_start, incline_shear, incline_column, silo, hopper\n";
+    "cases: slide_coulomb, slide_inertial, incline_start, incline_shear, incline_column, silo, hopper,\n"
+    "       pieces, pieces_slope, bowl, drum, annular, tilt_layer, tilt_box, face\n";
 
 gp_config walls_config(const choices *c, double spacing) {
     gp_config config;
@@ -18,6 +19,8 @@ gp_config walls_config(const choices *c, double spacing) {
     config.spacing = spacing;
     config.threads = 1;
     config.jitter = c->jitter;
+    if (!isnan(c->horizon))
+        config.horizon = c->horizon;
     config.gravity_x = GRAVITY * sin(c->angle * DEGREE);
     config.gravity_y = -GRAVITY * cos(c->angle * DEGREE);
     return config;
@@ -46,10 +49,15 @@ gp_load walls_load(gp_sim *sim, int32_t plate) {
     return load;
 }
 
-double *walls_field(gp_sim *sim, uint32_t bit, int64_t count) {
+double *walls_doubles(int64_t count) {
     double *values = malloc(sizeof *values * (size_t)count);
     if (!values)
         exit(1);
+    return values;
+}
+
+double *walls_field(gp_sim *sim, uint32_t bit, int64_t count) {
+    double *values = walls_doubles(count);
     CHECK(gp_copy_field(sim, bit, values, count));
     return values;
 }
@@ -75,18 +83,41 @@ int main(int argc, char **argv) {
         {"incline_column", incline_column, 28, 10, 3},
         {"silo", silo, 12, 0, 1.5},
         {"hopper", hopper, 10, 0, 0.8},
+        {"pieces", pieces, 20, 0, 0.5},
+        {"pieces_slope", pieces_slope, 20, 30, 0.15},
+        {"bowl", bowl, 20, 0, 1},
+        {"drum", drum, 16, 0, 0},
+        {"annular", annular, 16, 0, 0.8},
+        {"tilt_layer", tilt_layer, 10, 0, 0},
+        {"tilt_box", tilt_box, 6, 0, 0},
+        {"face", face, 16, 0, 1},
     };
     const int n = (int)(sizeof cases / sizeof cases[0]);
-    choices c = {.rows = NAN, .angle = NAN, .end = NAN, .filling = 5};
+    static const char *const frictions[] = {"rough", "smooth", "coulomb"};
+    static const int32_t walls[] = {GP_WALL_NO_SLIP, GP_WALL_FREE_SLIP, GP_WALL_COULOMB};
+    choices c = {.rows = NAN,
+                 .angle = NAN,
+                 .horizon = NAN,
+                 .end = NAN,
+                 .filling = 5,
+                 .segments = 24,
+                 .froude = 1e-2,
+                 .turns = 5};
     double coulomb = 0, beads = 0;
+    const char *wall = "rough";
     const bench_option options[] = {
         {"--rows",
-         "spacings in the layer, the height of the column, the width of the silo, the outlet of a hopper [10, 20, 28, "
-         "12, 10]",
+         "spacings in the layer, the height of the column, the width of the silo or of the column with faces, the "
+         "outlet of a hopper, the radius of a bowl, a drum or the inner ring [depends on the case]",
          BENCH_WHOLE, &c.rows, 1, 1000},
         {"--angle", "degrees, of the incline [depends on the case]", BENCH_NUMBER, &c.angle, 0, 45},
         {"--jitter", "spacings [0]", BENCH_NUMBER, &c.jitter, 0, 0.3},
         {"--end", "s, end of the run [depends on the case]", BENCH_NUMBER, &c.end, 1e-3, 1e4},
+        {"--horizon", "spacings [the library's]", BENCH_NUMBER, &c.horizon, 1.8, 8},
+        {"--segments", "of a floor in pieces, a bowl or a drum [24]", BENCH_WHOLE, &c.segments, 1, WALLS_CORNERS - 1},
+        {"--wall", "rough, smooth or coulomb (.3), of a floor in pieces [rough]", BENCH_TEXT, &wall, 0, 0},
+        {"--froude", "omega^2 R / g, of the drum [0.01]", BENCH_NUMBER, &c.froude, 1e-6, 10},
+        {"--turns", "of the drum [5]", BENCH_NUMBER, &c.turns, 0.5, 1000},
         {"--filling", "outlets, of a hopper [5]", BENCH_NUMBER, &c.filling, 2, 100},
         {"--beads", "1: glass beads in the hopper, not the published friction [0]", BENCH_WHOLE, &beads, 0, 1},
         {"--coulomb", "1: a floor with the Coulomb friction of the material, of layers that slide [0]", BENCH_WHOLE,
@@ -102,6 +133,7 @@ int main(int argc, char **argv) {
     c.end = isnan(c.end) ? cases[k].end : c.end;
     c.coulomb = coulomb != 0;
     c.beads = beads != 0;
+    c.wall = walls[bench_choice("--wall", wall, 3, frictions)];
     cases[k].run(&c);
     return 0;
 }

@@ -1,4 +1,4 @@
-/* A column that is released on an incline, and a tall silo whose floor sinks. */
+/* A column that is released on an incline, a vertical face that should stand, and a tall silo whose floor sinks. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,7 +42,7 @@ void incline_column(const choices *c) {
     const gp_config config = walls_config(c, height / c->rows);
     gp_sim *sim;
     gp_state state;
-    double *x, *columns, t;
+    double *x, *y, *p, *columns, t, clump = 0;
     int64_t k, own = 0;
     int32_t column;
     CHECK(gp_create(&config, &sim));
@@ -60,7 +60,12 @@ void incline_column(const choices *c) {
     }
     state = walls_state(sim);
     x = walls_field(sim, GP_FIELD_X, state.n_particles);
+    y = walls_field(sim, GP_FIELD_Y, state.n_particles);
+    p = walls_field(sim, GP_FIELD_PRESSURE, state.n_particles);
     columns = walls_field(sim, GP_FIELD_COLUMN, state.n_particles);
+    for (k = 0; k < state.n_particles; ++k) /* of what has come off in front of the deposit, and bears nothing */
+        if (x[k] > state.x_right && p[k] == 0 && state.at_rest)
+            clump = fmax(clump, ceil((y[k] - c->bed) / config.spacing - 0.25));
     for (k = 0; k < state.n_particles; ++k)
         if (columns[k] == column)
             x[own++] = x[k];
@@ -69,10 +74,33 @@ void incline_column(const choices *c) {
     printf("x_98 %.5g m\n", x[(int64_t)(0.98 * (double)own)]);
     printf("tip %.5g m\n", c->bed > 0 ? x[own - 1] : state.x_right);
     printf("detached %.5g of the mass\n", state.detached);
+    printf("clump %.3g rows, of what has come off and bears no pressure, at rest\n", clump);
     printf("at_rest %d 1\n", state.at_rest);
     walls_print_cost(sim);
     free(x);
+    free(y);
+    free(p);
     free(columns);
+    gp_destroy(sim);
+}
+
+void face(const choices *c) {
+    const double width = 0.08, height = 0.05, mu = 1.5;
+    const gp_config config = walls_config(c, width / c->rows);
+    gp_material material;
+    gp_state state;
+    gp_sim *sim;
+    CHECK(gp_create(&config, &sim));
+    CHECK(gp_material_init(&material, sizeof material));
+    material.mu_s = material.mu_2 = mu;
+    CHECK(gp_add_material(sim, &material, NULL));
+    add_column(sim, 0, width, height, 1);
+    add_plate(sim, width + 0.4, 0, -0.4, 0, GP_WALL_NO_SLIP, 0);
+    CHECK(gp_run(sim, c->end));
+    state = walls_state(sim);
+    printf("peak %.5g of the height\n", state.peak_height / height);
+    printf("at_rest %d 1\n", state.at_rest);
+    walls_print_cost(sim);
     gp_destroy(sim);
 }
 

@@ -32,17 +32,34 @@ else()
 endif()
 
 add_library(granperi_mpi SHARED ${GRANPERI_MPI_ENGINE} $<TARGET_OBJECTS:granperi_mpi_interface>)
+add_library(granperi_mpi_static STATIC ${GRANPERI_MPI_ENGINE} $<TARGET_OBJECTS:granperi_mpi_interface>)
 add_library(granperi::granperi_mpi ALIAS granperi_mpi)
+add_library(granperi::granperi_mpi_static ALIAS granperi_mpi_static)
+if(GRANPERI_LEVELS)
+  add_custom_target(granperi_mpi_levels DEPENDS ${GRANPERI_MPI_ENGINE}) # one rule for two libraries
+  add_dependencies(granperi_mpi granperi_mpi_levels)
+  add_dependencies(granperi_mpi_static granperi_mpi_levels)
+endif()
 set_target_properties(granperi_mpi PROPERTIES OUTPUT_NAME granperi-mpi VERSION ${PROJECT_VERSION} SOVERSION ${GRANPERI_SOVERSION}
                                               LINKER_LANGUAGE CXX LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/granperi.map)
 target_link_options(granperi_mpi PRIVATE "LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/granperi.map" "LINKER:--as-needed"
                                          "LINKER:-z,nodelete")
-target_include_directories(granperi_mpi PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+set_target_properties(granperi_mpi_static PROPERTIES OUTPUT_NAME granperi-mpi LINKER_LANGUAGE CXX)
+foreach(library granperi_mpi granperi_mpi_static)
+  target_include_directories(${library} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                                $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-target_link_libraries(granperi_mpi PUBLIC MPI::MPI_C PRIVATE ${GRANPERI_ZOLTAN_LIBRARY} ${GRANPERI_PRIVATE_LIBRARIES})
-if(GRANPERI_HDF5)
-  target_link_libraries(granperi_mpi PRIVATE ${HDF5_C_LIBRARIES})
+  target_link_libraries(${library} PUBLIC MPI::MPI_C PRIVATE ${GRANPERI_ZOLTAN_LIBRARY})
+  if(GRANPERI_HDF5)
+    target_link_libraries(${library} PRIVATE ${HDF5_C_LIBRARIES})
+  endif()
+endforeach()
+target_link_libraries(granperi_mpi PRIVATE ${GRANPERI_PRIVATE_LIBRARIES})
+if(GRANPERI_OPENMP)
+  target_link_libraries(granperi_mpi_static PRIVATE $<BUILD_INTERFACE:OpenMP::OpenMP_CXX>)
 endif()
+foreach(runtime ${OpenMP_CXX_LIBRARIES} stdc++ m)
+  target_link_libraries(granperi_mpi_static INTERFACE $<INSTALL_INTERFACE:${runtime}>)
+endforeach()
 
 add_executable(granperi_mpi_program programs/granperi-mpi.c)
 file(RELATIVE_PATH GRANPERI_MPI_RPATH "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
@@ -51,17 +68,16 @@ target_link_libraries(granperi_mpi_program PRIVATE granperi_mpi m)
 
 # ------------------------------------------------------------------------------------------------- install
 
-install(TARGETS granperi_mpi EXPORT granperi-mpi-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS granperi_mpi granperi_mpi_static EXPORT granperi-mpi-targets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS granperi_mpi_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES include/granperi/gp_mpi.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/granperi)
 install(EXPORT granperi-mpi-targets NAMESPACE granperi:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/granperi)
-# Relative, as in granperi.pc.
-file(RELATIVE_PATH GRANPERI_PC_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
-file(RELATIVE_PATH GRANPERI_PC_INCLUDEDIR "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
 set(GRANPERI_PC_MPI_CFLAGS "")
 foreach(directory ${MPI_C_INCLUDE_DIRS})
   string(APPEND GRANPERI_PC_MPI_CFLAGS " -I${directory}")
 endforeach()
 list(JOIN MPI_C_LIBRARIES " " GRANPERI_PC_MPI_LIBS)
+set(GRANPERI_PC_MPI_PRIVATE "${GRANPERI_ZOLTAN_LIBRARY} ${GRANPERI_PC_PRIVATE}")
 configure_file(pkgconfig/granperi-mpi.pc.in granperi-mpi.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/granperi-mpi.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

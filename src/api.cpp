@@ -1,18 +1,13 @@
-// The extern "C" file of gp.h: each call guards against exceptions, checks its pointers, and delegates.
+// The calls of gp.h that make, change and save a simulation: each guards against exceptions, checks its pointers, and delegates.
+#include "api.hpp"
+
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstring>
-#include <limits>
-#include <new>
 
 #include "check.hpp"
-#include "diagnostics.hpp"
 #include "entry.hpp"
 #include "error.hpp"
-#include "fields.hpp"
 #include "granperi/gp.h"
-#include "handle.hpp"
 #include "io/checkpoint.hpp"
 #include "level.hpp"
 
@@ -20,23 +15,11 @@ namespace {
 
 using namespace gp;
 
-void require_simulation(const gp_sim *handle) {
-    if (!handle)
-        throw make_error(GP_E_ARGUMENT,
-                         "sim = NULL: expected a simulation of gp_create or gp_load; has that call failed?");
-}
-
 // For calls that change the simulation: not possible inside its callback.
 Sim &outside_callback(gp_sim *handle, const char *call) {
     require_simulation(handle);
     if (handle->sim.in_callback())
         throw make_error(GP_E_STATE, "%s: called from inside the simulation's callback", call);
-    return handle->sim;
-}
-
-Sim &readable(gp_sim *handle) {
-    require_simulation(handle);
-    handle->sim.prepare();
     return handle->sim;
 }
 
@@ -50,84 +33,6 @@ template <class T> gp_status initialise(T *target, std::size_t size, const T &de
     std::memcpy(static_cast<void *>(target), &whole, std::min(size, sizeof(T)));
     return GP_OK;
 }
-
-// Hands out a struct that the library fills, as much of it as the caller has room for.
-template <class T> gp_status hand_out(T *target, T filled, const char *name) {
-    require_pointer(name, target);
-    const uint32_t size = target->struct_size;
-    if (size < 2 * sizeof(uint32_t))
-        throw make_error(GP_E_ARGUMENT, "%s.struct_size = %u: expected sizeof(%s), set by the caller", name, size,
-                         name);
-    filled.struct_size = size;
-    std::memcpy(static_cast<void *>(target), &filled, std::min<std::size_t>(size, sizeof(T)));
-    return GP_OK;
-}
-
-// Looks at the whole of a world that several processes may have parts of: body runs on the first of them.
-template <class Body> void on_whole(Sim &sim, const Body &body) {
-    const World *whole = sim.whole();
-    if (sim.crossing())
-        run_on_first(*sim.crossing(), [&] { body(*whole); });
-    else
-        body(*whole);
-}
-
-// What has come of that goes to all.
-template <class T> void tell_all(const Sim &sim, T *values, int64_t count) {
-    if (sim.crossing())
-        sim.crossing()->broadcast(values, count * static_cast<int64_t>(sizeof(T)), 0);
-}
-
-// Measures what has not been measured since the last step.
-gp_status hand_out_state(gp_sim *sim, uint32_t parts, gp_state *target) {
-    Sim &s = readable(sim);
-    const bool fresh = sim->state_epoch != s.epoch();
-    if (fresh || (parts & ~sim->state_parts)) {
-        on_whole(s, [&](const World &world) {
-            if (fresh)
-                sim->state = measure_sums(world);
-            measure_parts(world, fresh ? parts : parts & ~sim->state_parts, sim->state);
-        });
-        tell_all(s, &sim->state, 1);
-        sim->state_parts = fresh ? parts : sim->state_parts | parts;
-        sim->state_epoch = s.epoch();
-    }
-    sim->state.wall_seconds = s.wall_seconds();
-    gp_state state = sim->state;
-    leave_out(GP_STATE_ALL & ~parts, state);
-    return hand_out(target, state, "gp_state");
-}
-
-void require_stations(int64_t n, const char *in_name, const double *in, const char *out_name, const double *out) {
-    if (n < 0)
-        throw make_error(GP_E_ARGUMENT, "n = %lld: expected a whole number >= 0", static_cast<long long>(n));
-    if (n == 0)
-        return;
-    require_pointer(in_name, in);
-    require_pointer(out_name, out);
-    for (int64_t k = 0; k < n; ++k)
-        if (!std::isfinite(in[k]))
-            throw make_error(GP_E_ARGUMENT, "%s[%lld] = %g: expected a finite number", in_name,
-                             static_cast<long long>(k), in[k]);
-}
-
-// The sink of a process among several: all know when a frame is due, and the first one writes it.
-class SharedFrames : public FrameSink {
-public:
-    SharedFrames(Sim &sim, io::Output *output, const io::FrameTimes &times)
-        : sim_(sim), output_(output), times_(times) {}
-    void step_done(const World &part) override {
-        if (!times_.due(part))
-            return;
-        times_.pass(part);
-        on_whole(sim_, [&](const World &world) { output_->step_done(world); });
-    }
-
-private:
-    Sim &sim_;
-    io::Output *output_;
-    io::FrameTimes times_;
-};
 
 void put_id(int32_t *id, int32_t value) {
     if (id)
@@ -295,172 +200,6 @@ gp_status gp_set_log(gp_sim *sim, gp_log log, void *user) {
     });
 }
 
-// -------------------------------------------------------------------------------------------------- reading
-
-gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles) {
-    return guard([&] {
-        require_pointer("particles", particles);
-        if (fields & ~GP_FIELD_ALL)
-            throw make_error(GP_E_ARGUMENT, "fields = 0x%x: expected bits GP_FIELD_... up to 0x%x", fields,
-                             GP_FIELD_ALL);
-        Sim &s = readable(sim);
-        const World &world = s.world();
-        gp_particles view{};
-        view.count = world.particles.count;
-        view.epoch = s.epoch();
-        if (fields & GP_FIELD_ID)
-            view.id = world.particles.id.data();
-        if (fields & GP_FIELD_COLUMN)
-            view.column = world.particles.column.data();
-        const double **pointers[] = {&view.x,
-                                     &view.y,
-                                     &view.vx,
-                                     &view.vy,
-                                     &view.pressure,
-                                     &view.density,
-                                     &view.sxx,
-                                     &view.sxy,
-                                     &view.syy,
-                                     &view.shear_rate,
-                                     &view.inertial_number,
-                                     &view.viscosity,
-                                     &view.number_density,
-                                     &view.fluidity};
-        for (uint32_t k = 0; k < std::size(pointers); ++k) {
-            const uint32_t bit = GP_FIELD_X << k;
-            if (fields & bit)
-                *pointers[k] = read_field(world, bit, sim->derived[k]);
-        }
-        return hand_out(particles, view, "gp_particles");
-    });
-}
-
-gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
-    return guard([&] {
-        if (field == 0 || (field & (field - 1)) || (field & ~GP_FIELD_ALL))
-            throw make_error(GP_E_ARGUMENT, "field = 0x%x: expected exactly one of the bits GP_FIELD_...", field);
-        Sim &s = readable(sim);
-        if (s.crossing() && s.crossing()->rank() > 0 && n != 0)
-            throw make_error(GP_E_ARGUMENT, "n = %lld: expected 0 but on the first process", static_cast<long long>(n));
-        on_whole(s, [&](const World &world) {
-            if (n != world.particles.count)
-                throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld",
-                                 static_cast<long long>(n), static_cast<long long>(world.particles.count));
-            if (n > 0) {
-                require_pointer("dst", dst);
-                copy_field_by_id(world, field, dst);
-            }
-        });
-        return GP_OK;
-    });
-}
-
-gp_status gp_get_state(gp_sim *sim, gp_state *state) {
-    return guard([&] {
-        require_pointer("state", state);
-        const uint32_t size = state->struct_size; // an older program's ends before what it does not know
-        return hand_out_state(sim,
-                              size <= offsetof(gp_state, x_left)  ? 0
-                              : size <= offsetof(gp_state, x_q01) ? GP_STATE_DEPOSIT
-                                                                  : GP_STATE_ALL,
-                              state);
-    });
-}
-
-gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state) {
-    return guard([&] {
-        require_pointer("state", state);
-        if (parts & ~static_cast<uint32_t>(GP_STATE_ALL))
-            throw make_error(GP_E_ARGUMENT, "parts = 0x%x: expected bits GP_STATE_... up to 0x%x", parts, GP_STATE_ALL);
-        return hand_out_state(sim, parts, state);
-    });
-}
-
-gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step) {
-    return guard([&] {
-        require_simulation(sim);
-        const Clock clock = sim->sim.clock();
-        if (time)
-            *time = clock.time;
-        if (dt)
-            *dt = clock.step > 0 ? clock.dt : 0.0;
-        if (step)
-            *step = clock.step;
-        return GP_OK;
-    });
-}
-
-gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height) {
-    return guard([&] {
-        require_stations(n, "x", x, "height", height);
-        Sim &s = readable(sim);
-        on_whole(s, [&](const World &world) {
-            const Surface surface(world, connected_deposit(world));
-            for (int64_t k = 0; k < n; ++k)
-                if (!surface.height(x[k], height[k]))
-                    height[k] = 0;
-        });
-        tell_all(s, height, n);
-        return GP_OK;
-    });
-}
-
-gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, const double *y, double *x) {
-    return guard([&] {
-        Sim &s = readable(sim);
-        const auto bodies = static_cast<int64_t>(s.scene().bodies().size());
-        require_choice("left", left, bodies);
-        require_choice("right", right, bodies);
-        if (left == right)
-            throw make_error(GP_E_ARGUMENT, "right = %d: expected another column than left", right);
-        require_stations(n, "y", y, "x", x);
-        on_whole(s, [&](const World &world) {
-            for (int64_t k = 0; k < n; ++k)
-                if (!interface_at(world, left, right, y[k], x[k]))
-                    x[k] = std::numeric_limits<double>::quiet_NaN();
-        });
-        tell_all(s, x, n);
-        return GP_OK;
-    });
-}
-
-gp_status gp_get_plate_load(gp_sim *sim, int32_t plate, gp_load *load) {
-    return guard([&] {
-        require_pointer("load", load);
-        const World &world = readable(sim).world();
-        require_choice("plate", plate, static_cast<int64_t>(world.walls.plates.size()));
-        const Plate &p = world.walls.plates[plate];
-        const Pose pose = p.pose(world.clock.time);
-        gp_load filled{};
-        filled.fx = p.force.x();
-        filled.fy = p.force.y();
-        filled.torque = p.torque;
-        filled.dx = pose.shift.x();
-        filled.dy = pose.shift.y();
-        filled.impulse_x = p.impulse.x();
-        filled.impulse_y = p.impulse.y();
-        filled.torque_pivot = p.torque_pivot;
-        filled.angle = pose.angle;
-        filled.impulse_torque = p.impulse_torque;
-        return hand_out(load, filled, "gp_load");
-    });
-}
-
-gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int64_t *n_out) {
-    return guard([&] {
-        require_pointer("n_out", n_out);
-        *n_out = 0;
-        if (n < 0)
-            throw make_error(GP_E_ARGUMENT, "n = %lld: expected a whole number >= 0", static_cast<long long>(n));
-        if (n > 0)
-            require_pointer("entries", entries);
-        const std::vector<gp_plan_entry> plan = readable(sim).plan();
-        std::copy_n(plan.begin(), std::min<std::size_t>(plan.size(), static_cast<std::size_t>(n)), entries);
-        *n_out = static_cast<int64_t>(plan.size());
-        return GP_OK;
-    });
-}
-
 // ---------------------------------------------------------------------------------------------------- files
 
 gp_status gp_save(gp_sim *sim, const char *path) {
@@ -479,7 +218,8 @@ gp_status gp_save(gp_sim *sim, const char *path) {
             return GP_OK;
         }
         s.prepare();
-        on_whole(s, [&](const World &world) { save(&world); });
+        const World *whole = s.whole();
+        on_first(s.world(), [&] { save(whole); });
         return GP_OK;
     });
 }
@@ -511,18 +251,8 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
             throw make_error(GP_E_STATE, "gp_output_open: an output is open already; gp_output_close it first");
         const gp_output options = output ? complete(output, io::default_output(), "gp_output") : io::default_output();
         s.prepare();
-        on_whole(s, [&](const World &world) {
-            sim->output = std::make_unique<io::Output>(path, options, world, sim->left_off);
-        });
+        sim->output = std::make_unique<io::Output>(path, options, s.world(), sim->left_off);
         s.sink = sim->output.get();
-        if (s.crossing()) {
-            io::FrameTimes times;
-            if (sim->output)
-                times = sim->output->times();
-            tell_all(s, &times, 1);
-            sim->frames = std::make_unique<SharedFrames>(s, sim->output.get(), times);
-            s.sink = sim->frames.get();
-        }
         sim->left_off = {};
         return GP_OK;
     });
@@ -533,7 +263,7 @@ gp_status gp_output_write(gp_sim *sim) {
         require_simulation(sim);
         if (!sim->sim.sink)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
-        on_whole(readable(sim), [&](const World &world) { sim->output->write(world); });
+        sim->output->write(readable(sim).world());
         return GP_OK;
     });
 }
@@ -545,10 +275,7 @@ gp_status gp_output_close(gp_sim *sim) {
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");
         s.sink = nullptr;
         const std::unique_ptr<io::Output> closing = std::move(sim->output);
-        if (s.crossing())
-            run_on_first(*s.crossing(), [&] { closing->close(); });
-        else
-            closing->close();
+        on_first(s.world(), [&] { closing->close(); });
         return GP_OK;
     });
 }

@@ -1,4 +1,4 @@
-// Errors inside the library are exceptions of this type; api.cpp turns them into a status and a thread-local text.
+// Errors inside the library are exceptions of this type; guard (handle.hpp) turns them into a status and a thread-local text.
 #pragma once
 
 #include <stdexcept>

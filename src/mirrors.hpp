@@ -20,14 +20,26 @@ struct Mirrors {
     Field<int32_t> facet_of_entry;
 
     // Of particles within `radius` of the mirror points that are in contact with the ghost's plate.
-    void find(const Walls &walls, const Particles &particles, const CellGrid &grid, const Images &images,
-              double radius);
+    void find(const Walls &walls, const Particles &particles, const CellGrid &grid, const Images &images, double radius,
+              Crossing *crossing);
 
     int64_t bytes() const {
         return of_ghost.bytes() +
                static_cast<int64_t>((contact_start.capacity() + place.capacity()) * sizeof(int64_t) +
-                                    (ghost.capacity() + facet_of_entry.capacity()) * sizeof(int32_t));
+                                    (ghost.capacity() + facet_of_entry.capacity()) * sizeof(int32_t) +
+                                    contacts_of_images_.capacity() * sizeof(ContactOfImage));
     }
+
+private:
+    struct ContactOfImage {
+        int32_t chain, facet; // -1: none
+    };
+
+    void tell_contacts(const Walls &walls, const Particles &particles, const Images &images, Crossing *crossing);
+    int32_t facet_in_front(const Walls &walls, const Particles &particles, int64_t i, int64_t ghost) const;
+
+    std::vector<ContactOfImage> contacts_of_images_; // as many for each of them
+    int64_t most_contacts_ = 0;
 };
 
 } // namespace gp

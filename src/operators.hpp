@@ -13,16 +13,14 @@
 
 namespace gp {
 
-// K and M = sum w (u_j - u_i) (x) r, so that L = M K^-1; and N = sum w and sum w r, where they are asked for.
+// K and M = sum w (u_j - u_i) (x) r, so that L = M K^-1; and N = sum w where it is asked for.
 struct Moments {
-    double n = 0, x = 0, y = 0;
+    double n = 0;
     double kxx = 0, kxy = 0, kyy = 0;
     double mxx = 0, mxy = 0, myx = 0, myy = 0;
 
     GP_INLINE Moments &operator+=(const Moments &other) {
         n += other.n;
-        x += other.x;
-        y += other.y;
         kxx += other.kxx;
         kxy += other.kxy;
         kyy += other.kyy;
@@ -38,8 +36,8 @@ struct Moments {
 GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t n, double xi, double yi, double ui,
                            double vi, const double *__restrict x, const double *__restrict y,
                            const double *__restrict vx, const double *__restrict vy, double inverse_radius) {
-    double all = 0, along_x = 0, along_y = 0, kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
-#pragma omp simd reduction(+ : all, along_x, along_y, kxx, kxy, kyy, mxx, mxy, myx, myy)
+    double all = 0, kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
+#pragma omp simd reduction(+ : all, kxx, kxy, kyy, mxx, mxy, myx, myy)
     for (int64_t k = 0; k < n; ++k) {
         const int32_t j = row[k];
         const double dx = x[j] - xi, dy = y[j] - yi;
@@ -47,8 +45,6 @@ GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t 
         const double wx = w * dx, wy = w * dy;
         const double du = vx[j] - ui, dv = vy[j] - vi;
         all += w;
-        along_x += wx;
-        along_y += wy;
         kxx += wx * dx;
         kxy += wx * dy;
         kyy += wy * dy;
@@ -58,8 +54,6 @@ GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t 
         myy += dv * wy;
     }
     sum.n += all;
-    sum.x += along_x;
-    sum.y += along_y;
     sum.kxx += kxx;
     sum.kxy += kxy;
     sum.kyy += kyy;

@@ -120,6 +120,8 @@ void Particles::give_back(bool stressed_in_shape) {
         if (!from.empty())
             hand_over(from, to);
     };
+    give(spaced, ax);
+    give(known, ay);
     if (ax.empty())
         give_back_accelerations();
     give(crowding, cyx);

@@ -75,6 +75,9 @@ struct Particles {
     // memory of its own.
     Field<double> bearing_flow;
     Field<double> crowding; // sum of w where it flows, else 0. From gradient to density_of_spacing; then cyx
+    // Where collisions ask for what is crowded: N over the lattice's where it flows, else 0; density over the material's own, at
+    // least 1, before the spacing has raised it. From density_of_spacing to force; then ax, ay
+    Field<double> spaced, known;
     Field<double>
         carried; // share of its stress that a particle near a plate carries. From gradient to density; then cyy
     // Share of the penalty: where p > 0, more inside the yield surface; only with it. From stress to force; in the default scheme

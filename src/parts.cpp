@@ -1,8 +1,10 @@
 #include "parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
+#include <new>
 
 #include "error.hpp"
 
@@ -52,6 +54,25 @@ double sum_of_all(const World &world, double energy) {
     return sums.take(energy_scale(world));
 }
 
+void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest) {
+    constexpr int most = 4;
+    std::array<Whole, most * bins::count> wholes;
+    std::array<double, most + 1> tops;
+    auto *next = wholes.data();
+    for (int k = 0; k < n_sums; ++k) {
+        next = std::copy(sums[k].wholes.begin(), sums[k].wholes.end(), next);
+        tops[k] = sums[k].top;
+    }
+    tops[n_sums] = largest;
+    crossing.combine(tops.data(), n_sums + 1, wholes.data(), n_sums * bins::count);
+    next = wholes.data();
+    for (int k = 0; k < n_sums; ++k, next += bins::count) {
+        std::copy_n(next, bins::count, sums[k].wholes.begin());
+        sums[k].top = tops[k];
+    }
+    largest = tops[n_sums];
+}
+
 void combine_books(World &world, BlockRange &range, BlockSums &total) {
     const double energy = energy_scale(world);
     const Ledger &before = world.step_start.ledger;
@@ -96,6 +117,32 @@ std::string text_of_largest(Crossing &crossing, double &value, const std::string
     chosen.resize(static_cast<std::size_t>(size));
     crossing.broadcast(chosen.data(), size, from);
     return chosen;
+}
+
+void run_on_first(Crossing &crossing, const std::function<void()> &body) {
+    int64_t head[2] = {GP_OK, 0}; // status, length of the text
+    std::string text;
+    if (crossing.rank() == 0) {
+        try {
+            body();
+        } catch (const Error &error) {
+            head[0] = error.status();
+            text = error.what();
+        } catch (const std::bad_alloc &) {
+            head[0] = GP_E_MEMORY;
+            text = "out of memory";
+        } catch (const std::exception &error) {
+            head[0] = GP_E_INTERNAL;
+            text = error.what();
+        }
+        head[1] = static_cast<int64_t>(text.size());
+    }
+    crossing.broadcast(head, sizeof head, 0);
+    if (head[0] == GP_OK)
+        return;
+    text.resize(static_cast<std::size_t>(head[1]));
+    crossing.broadcast(text.data(), head[1], 0);
+    throw Error(static_cast<gp_status>(head[0]), text);
 }
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {

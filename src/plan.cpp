@@ -87,7 +87,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads what is exchanged; writes density
         {"density_diffusion", t.particles && t.diffusion, "density_diffusion > 0", "density_diffusion is 0",
          stages::density_diffusion, awake, all_sleep},
-        // reads number density, velocity gradient; writes density
+        // reads number density, velocity gradient; writes density; leaves in the acceleration's memory what is spaced how
         {"density_of_spacing", t.particles, "what flows keeps its volume", no_particles, stages::density_of_spacing,
          awake, all_sleep},
         // reads velocity gradient; writes density, pressure
@@ -100,7 +100,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads pressure, stress; writes ghost stress
         {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_stress, awake_near, no_work},
-        // reads sigma K^-1, velocity, velocity gradient; writes acceleration
+        // reads sigma K^-1, velocity, velocity gradient, number density; writes acceleration, and what is crowded
         {"force", t.particles, t.penalty ? "force states, gravity, zero-energy penalty" : "force states, gravity",
          no_particles, stages::force, awake, all_sleep},
         // reads acceleration; writes velocity, position

@@ -10,6 +10,8 @@ std::vector<PlannedStage> implicit_stages(const Traits &t, const std::vector<Pla
     PlannedStage support = rows.other("wall_contact", stages::wall_support);
     support.name = "wall_support";
     support.why = "what lies on a plate does not fall in the solve";
+    if (t.parts) // other processes may have contacts, and wait
+        support.now = nullptr;
     return {
         rows.same("choose_dt"),
         rows.same("move_plates"),

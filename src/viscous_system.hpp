@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "binned_sum.hpp"
 #include "geometry.hpp"
 #include "material/regularized.hpp"
 #include "particles.hpp"
@@ -54,11 +55,11 @@ struct ViscousSystem {
     VectorField force;                                // N/m3
     VectorField change, rate_change, residual, direction, image, bend; // of the linear solve
     Field<double> diagonal;
-    Field<double> hxx, hxy, hyy;    // of the linearised law, Pa s
-    Field<double> viscosity;        // Pa s
-    Field<double> kxx, kxy, kyy;    // of the diagonal
-    Field<double> partial;          // sums per block
-    std::vector<WallLaw> wall_laws; // of every contact, as the next ones
+    Field<double> hxx, hxy, hyy;     // of the linearised law, Pa s
+    Field<double> viscosity;         // Pa s
+    Field<double> kxx, kxy, kyy;     // of the diagonal
+    std::vector<BinnedBlock> blocks; // of a sum over particles
+    std::vector<WallLaw> wall_laws;  // of every contact, as the next ones
     Field<double> wall_rate, wall_stress, wall_change,
         wall_h; // g, 1/s; stress, Pa; change of g; of the linearised law, Pa s
 
@@ -87,11 +88,11 @@ struct ViscousSystem {
                                            &hxy,         &hyy,
                                            &viscosity,   &kxx,
                                            &kxy,         &kyy,
-                                           &partial,     &wall_rate,
-                                           &wall_stress, &wall_change,
-                                           &wall_h})
+                                           &wall_rate,   &wall_stress,
+                                           &wall_change, &wall_h})
             total += static_cast<int64_t>(field->capacity() * sizeof(double));
-        return total + static_cast<int64_t>(wall_laws.capacity() * sizeof(WallLaw));
+        return total +
+               static_cast<int64_t>(wall_laws.capacity() * sizeof(WallLaw) + blocks.capacity() * sizeof(BinnedBlock));
     }
 };
 

@@ -132,11 +132,11 @@ void Walls::find_near(const Box &everywhere, double radius) {
     }
 }
 
-void Walls::place_candidates(const CellGrid &grid, double radius, double spacing) {
+void Walls::place_candidates(const Box &about, double radius, double spacing) {
     places_.clear();
     for (const FacetChains::Chain &chain : chains_.all())
-        if (grid.count() > 0)
-            chains_.add_places(chain, images_, grid.box(), radius, spacing, places_);
+        if (about.x_min <= about.x_max) // there are particles
+            chains_.add_places(chain, images_, about, radius, spacing, places_);
     candidates_.assign(places_.size(), {0, 0, false});
 }
 
@@ -157,7 +157,7 @@ void for_each_within(const Particles &particles, const CellGrid &grid, const Ima
 
 // Who sees each candidate: in reach of it first, which tells the room needed, then those whose way to it is free.
 void Walls::find_seeing(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                        double spacing, int threads) {
+                        double spacing, bool images_count, int threads) {
     const auto count = static_cast<int64_t>(candidates_.size());
     for_each_block<ghost_block_size>(threads, count, [&](int64_t, int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k)
@@ -191,7 +191,7 @@ void Walls::find_seeing(const Particles &particles, const CellGrid &grid, const 
                 seeing[entry] = static_cast<int32_t>(i);
                 if (several)
                     passed_[entry] = images_[image].facet;
-                ghost.seen |= i < particles.count;
+                ghost.seen |= images_count || i < particles.count;
             });
         }
     });
@@ -307,16 +307,18 @@ void Walls::add_contacts(const Particles &particles, int64_t i, int32_t begin, i
 }
 
 void Walls::find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, const Box &everywhere,
-                          double radius, double reach, double spacing, bool may_join, int threads) {
+                          double radius, double beyond, double reach, double spacing, bool may_join, int threads) {
     images_of_facets();
     find_near(everywhere, radius);
     chains_.find(plates, facets, images_, reach, spacing, may_join);
-    place_candidates(grid, radius, spacing);
+    const Box &own = grid.box();
+    const Box about{own.x_min - beyond, own.x_max + beyond, own.y_min - beyond, own.y_max + beyond};
+    place_candidates(about, radius, spacing);
     cells_.sort(
         static_cast<int64_t>(images_.size()),
-        [&](int64_t k) { return images_[k].near ? &images_[k].segment : nullptr; }, grid.box(),
+        [&](int64_t k) { return images_[k].near ? &images_[k].segment : nullptr; }, about,
         radius + penetration_allowed * spacing);
-    find_seeing(particles, grid, images, radius, spacing, threads);
+    find_seeing(particles, grid, images, radius, spacing, beyond > 0, threads);
     keep_seen();
     make_contacts(particles);
 }
@@ -351,11 +353,8 @@ int64_t Walls::contact_of(int64_t i, int64_t ghost) const {
     int64_t found = -1;
     double most = -INFINITY;
     for (int32_t c = contact_start[i]; c < contact_start[i + 1]; ++c) {
-        if (contacts[c].chain != ghost_chain[ghost])
-            continue;
-        const Vector &n = facets[contacts[c].listed_facet].segment.normal;
-        if (const double alike = n.x() * ghost_nx[ghost] + n.y() * ghost_ny[ghost]; alike > most) {
-            most = alike;
+        if (const double here = alike(contacts[c].chain, contacts[c].listed_facet, ghost); here > most) {
+            most = here;
             found = c;
         }
     }

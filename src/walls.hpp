@@ -111,9 +111,10 @@ struct Walls {
     const Barriers &barriers(const Particles &particles, const CellGrid &grid, double radius, Crossing *crossing);
 
     // Finds ghosts and contacts within `radius` of the sorted particles. everywhere: the box of all particles, also those of other
-    // processes; reach: the radius without a skin; may_join: plates that meet become one wall.
+    // processes; beyond: how much farther ghosts are that images alone see, 0 where nobody asks for these; reach: the radius
+    // without a skin; may_join: plates that meet become one wall.
     void find_contacts(const Particles &particles, const CellGrid &grid, const Images &images, const Box &everywhere,
-                       double radius, double reach, double spacing, bool may_join, int threads);
+                       double radius, double beyond, double reach, double spacing, bool may_join, int threads);
 
     // Do the plates that made a wall when the lists were made still move together?
     bool chains_stand() const { return chains_.stand(plates); }
@@ -132,6 +133,11 @@ struct Walls {
 
     // Particle i's contact with the wall in front of a ghost, -1 if there is none.
     int64_t contact_of(int64_t i, int64_t ghost) const;
+    // How much a facet of a chain faces as a ghost does; -infinity if it is another chain's.
+    double alike(int32_t chain, int32_t facet, int64_t ghost) const {
+        const Vector &n = facets[facet].segment.normal;
+        return chain == ghost_chain[ghost] ? n.x() * ghost_nx[ghost] + n.y() * ghost_ny[ghost] : -INFINITY;
+    }
 
     // Finds the wall particle of each ghost: the one in front of it, or the nearest that is between the plate's ends.
     void find_wall_particles(double spacing);
@@ -142,9 +148,9 @@ struct Walls {
 private:
     const std::vector<FacetImage> &images_of_facets();
     void find_near(const Box &everywhere, double radius);
-    void place_candidates(const CellGrid &grid, double radius, double spacing);
+    void place_candidates(const Box &about, double radius, double spacing);
     void find_seeing(const Particles &particles, const CellGrid &grid, const Images &images, double radius,
-                     double spacing, int threads);
+                     double spacing, bool images_count, int threads);
     void keep_seen();
     void make_contacts(const Particles &particles);
     void add_contacts(const Particles &particles, int64_t i, int32_t begin, int32_t end);

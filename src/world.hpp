@@ -145,8 +145,7 @@ struct World {
     std::vector<BlockRange> ranges;
     Field<uint8_t> colliding; // partners of each particle in this step's collisions
     // How much denser they are where it flows, as if no surface were near, than their density says: share of the lattice's; less than
-    // none elsewhere. From density_of_spacing to collide (before: from gradient, what N lacks for the surface). Not in the schemes
-    // by number density.
+    // none elsewhere. From force to collide. Not in the schemes by number density.
     Field<float> crowded;
     double plastic_power = 0;    // W/m, of the last step
     double unbalanced_share = 0; // of the mass, that was accelerated by more than rest_acceleration g lately

@@ -1,6 +1,15 @@
-"""Other public particle codes' throughput, measured on a machine of two x86-64 cores (51 GFLOP/s double, 17 GB/s copy per
-core), one thread. validation/references.py has their runs of the collapse."""
+"""Other public particle codes' throughput and memory, one thread. validation/references.py has their runs of the collapse, of the same
+machine, aims.json those of Matter on another one."""
 from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "validation"))
+from references import INDEPENDENT_CODES  # noqa: E402
+
+SAME = "c = 10 m/s"  # the sound speed of ours, too: ten times the fastest flow of the column
+ANOTHER_MACHINE = "a machine of two x86-64 cores (51 GFLOP/s double, 17 GB/s copy per core)"
 
 # Code, precision, neighbours of a particle, million particle-steps per s at 1e3, 1e4, 1e5 particles, ns per neighbour.
 THROUGHPUT = [
@@ -12,3 +21,10 @@ THROUGHPUT = [
     ("LAMMPS gran/hooke (DEM)", "double", "6", (10.8, 5.2, 4.4), 32.0),
 ]
 OUR_NEIGHBOURS = 48  # of a particle inside, horizon 4
+
+MEMORY = {"Matter (MPM)": 244}  # bytes per particle at the peak, a million particles
+
+
+def second_machine() -> dict[int, float]:
+    """CPU s of Matter by L/dl on ANOTHER_MACHINE."""
+    return {n: cpu for code, _, n, cpu, *_ in INDEPENDENT_CODES if n and cpu and code.startswith("Matter") and SAME in code}

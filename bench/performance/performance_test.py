@@ -13,7 +13,10 @@ from smoke import Workplace  # first: skips where NumPy is missing
 
 import numpy as np
 
+import aims
+import beside
 import measures
+import peers
 import plots
 import results
 import runs
@@ -25,6 +28,8 @@ PLATE_BYTES = 512  # of the lists of walls: a plate's images, its chain, its pla
 def check_measures() -> None:
     places = [(1.0, 0.4), (2.0, 0.5), (2.0, 0.1), (3.0, 0.1), (4.0, math.nan), (5.0, 0.05)]
     assert measures.pareto(places, places) == [(1.0, 0.4), (2.0, 0.1), (5.0, 0.05)]
+    curves = {"horizon 4": [[16, 1.0, 0.07], [32, 4.0, 0.03]], "horizon 3": [[24, 2.0, 0.08], [32, 4.2, 0.02]]}
+    assert aims.best_of(curves) == [(16, 1.0, 0.07), (32, 4.2, 0.02)], "what costs the same counts once"
     # Error = 1 / cost falls to 1/20 at 20; a curve that rises above the aim again has not got there.
     costs = [1.0, 8.0, 64.0]
     assert math.isclose(measures.at_error(costs, [1 / c for c in costs], 0.05), 20)
@@ -50,6 +55,23 @@ def check_collapse(coarse: results.Result, fine: results.Result, collection: res
         < fine.summary["particles"] * fine.summary["steps"] / coarse.summary["particles"] / coarse.summary["steps"]
         < 9
     )
+
+
+def check_lead(collection: results.Collection) -> None:
+    """Where others are ahead comes first, with the machines behind it."""
+    assert set(peers.second_machine()) >= {32, 64, 128}
+    ref = measures.reference(collection, "a1.25")
+    assert ref
+    costs, errors = beside.mpm_curve(peers.SAME, ref)
+    assert costs == sorted(costs) and min(errors) > 0
+    own = beside._rates
+    beside._rates = lambda _: [beside.Claim(False, "ours"), beside.Claim(True, "theirs")]
+    try:
+        first, second, machines = beside.lead(collection).split("\n\n")
+    finally:
+        beside._rates = own
+    assert first.startswith("**Where other codes are ahead:**") and "theirs" in first and "ours" in second
+    assert "times as long" in machines
 
 
 def check_idle(idle: results.Result) -> None:
@@ -82,10 +104,11 @@ def main() -> None:
     assert "0 to do" in place.run(run.name), "a run that has its result is not run again"
     collection = results.Collection(place.found)
     check_collapse(results.load(coarse, place.found), results.load(fine, place.found), collection)
+    check_lead(collection)
     check_coulomb(results.load(idle, place.found), results.load(used, place.found))
     check_idle(results.load(no_friction, place.found))
-    beside = results.load(side_walls, place.found)
-    assert beside.summary["same_bits"] == 0 and beside.summary["stage_side_wall_friction"] > 0, "they hold what they can"
+    held = results.load(side_walls, place.found)
+    assert held.summary["same_bits"] == 0 and held.summary["stage_side_wall_friction"] > 0, "they hold what they can"
     assert results.load(small, place.found).summary["particles"] == 13 * 8
 
     report, images = place.report("performance.md")

@@ -13,7 +13,7 @@ JITTER = 0.01  # dl: enough for the runs of an ensemble to be independent, too l
 END = 1.0  # s
 
 EXAMPLE = "examples/c/example.[ch]"
-TRIAL = tuple(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "roughness", "trial", "options"))
+TRIAL = tuple(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "marks", "roughness", "trial", "options"))
 PROGRAMS = {
     "collapse": Program("bench/stability", (*TRIAL, EXAMPLE), records=True),
     "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),

@@ -245,7 +245,7 @@ Lines = Callable[[Collection], list[str]]
 
 
 def in_short(results: Collection) -> list[str]:
-    return [line for part in (_aim, _tips, _matter, _horizon, _exact_horizons, _neighbours) for line in part(results)]
+    return [line for part in (_aim, _tips, _horizon, _exact_horizons, _neighbours) for line in part(results)]
 
 
 def _aim(results: Collection) -> list[str]:
@@ -294,29 +294,6 @@ def _tips(results: Collection) -> list[str]:
         "The run-out of the tips has not converged: the finer the run, the farther single particles get. Run-outs of 90 % and "
         f"98 % of the mass, of the front and of the tips by L/dl: {rows}. Errors of the tips are against the finest run all the same."
     ]
-
-
-def _matter(results: Collection) -> list[str]:
-    ref = measures.reference(results, "a1.25")
-    if not ref:
-        return []
-    cells = []
-    for p in measures.peers(ref):
-        if not p.label.startswith("Matter") or "c = 10" not in p.label:
-            continue
-        n = p.resolution or 0
-        own = [(f"horizon {h:g}", results(runs.collapse("a1.25", n, h))) for h in (4.0, 3.0)]
-        own.append((runs.SETTINGS[runs.RECOMMENDED].label, results(runs.varied("a1.25", n, runs.RECOMMENDED))))
-        costs = " / ".join(f"{seconds(measures.cost(r))} ({label})" for label, r in own if r)
-        if costs:
-            cells.append(
-                f"L/dl = {p.resolution}: {costs}, Matter {cpu(p.cost)}{' (busy machine)' if p.inflated else ''}"
-            )
-    return (
-        [f"CPU s per simulated s against the explicit MPM code at the same spacing: {'; '.join(cells)}."]
-        if cells
-        else []
-    )
 
 
 def _horizon(results: Collection) -> list[str]:

@@ -22,7 +22,7 @@ def shear(rows: int, jitter: float) -> Run:
         (
             "incline_shear", "--rows", str(rows), "--jitter", f"{jitter:g}", "--angle", str(ANGLE), "--end", str(END),
         ),
-        50 * (rows / 20) ** 3,
+        32 * (rows / 20) ** 2,
     )  # fmt: skip
 
 

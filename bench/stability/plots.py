@@ -3,9 +3,11 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any, Iterable
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.lines import Line2D
 
 import runs
 import theory
@@ -24,6 +26,15 @@ def _shades(color: str, n: int) -> list[tuple[float, ...]]:
     """From light to full."""
     full = np.array(plt.matplotlib.colors.to_rgb(color))
     return [tuple(1 - (1 - full) * share) for share in np.linspace(0.35, 1, max(n, 2))][:n] if n > 1 else [tuple(full)]
+
+
+def _legend_of_schemes(
+    figure: plt.Figure, schemes: Iterable[runs.Scheme], lines: list[tuple[str, dict[str, Any]]], columns: int
+) -> None:
+    """A colour for each scheme, and what the kinds of lines are."""
+    handles = [Line2D([], [], color=COLORS[s.key], lw=4, label=s.label) for s in schemes]
+    handles += [Line2D([], [], color="black", label=label, **style) for label, style in lines]
+    figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=columns)
 
 
 def sensitivity(path: Path, results: Collection) -> bool:
@@ -73,9 +84,9 @@ def limits(path: Path, results: Collection) -> bool:
     schemes = present(results)
     if not schemes:
         return False
-    figure, axes = plt.subplots(1, 4, figsize=(16, 4.6), layout="constrained", sharey=True)
+    figure, axes = plt.subplots(2, 2, figsize=(10.5, 8), layout="constrained", sharey=True)
     drawn = False
-    for ax, axis in zip(axes, runs.AXES):
+    for ax, axis in zip(axes.flat, runs.AXES):
         for s in schemes:
             found = [(v, results(axis.run(s.key, v))) for v in axis.of(s)]
             found = [(v, result) for v, result in found if result]
@@ -83,21 +94,25 @@ def limits(path: Path, results: Collection) -> bool:
             for grade, line, filled in (("bounded", ":", "none"), ("stable", "-", COLORS[s.key])):
                 ax.plot(
                     [v for v, _ in found], [r.summary[grade] for _, r in found], color=COLORS[s.key], linestyle=line,
-                    marker="o", mfc=filled, label=f"{s.label}: {'calm' if grade == 'stable' else 'makes no energy'} up to",
+                    marker="o", mfc=filled,
                 )  # fmt: skip
         if axis.values == runs.LIMIT_HORIZONS:
             h = np.linspace(min(axis.values), max(axis.values), 8)
-            ax.plot(h, [theory.surface(x) for x in h], color="black", lw=1.2, label="theory, free surface (default)")
-            ax.plot(h, [theory.interior(x) for x in h], color="black", lw=1.2, ls=":", label="theory, inside (default)")
+            ax.plot(h, [theory.surface(x) for x in h], color="black", lw=1.2)
+            ax.plot(h, [theory.interior(x) for x in h], color="black", lw=1.2, ls=":")
         else:
             ax.set_xscale("log")
             ax.set_xticks(axis.values, [f"{v:g}" for v in axis.values])
             ax.minorticks_off()
         ax.axhline(1, color="0.7", lw=1, zorder=0)
         ax.set_xlabel(axis.name)
-    axes[0].set_ylabel("largest dt × wave speed / dl")
-    axes[0].set_ylim(bottom=0)
-    legend_above(figure, axes[2], 4)
+    for ax in axes[:, 0]:
+        ax.set_ylabel("largest dt × wave speed / dl")
+    axes[0, 0].set_ylim(bottom=0)
+    _legend_of_schemes(
+        figure, schemes, [("calm up to", {"marker": "o"}), ("makes no energy up to", {"marker": "o", "mfc": "none", "ls": ":"}),
+                          ("theory, free surface", {"lw": 1.2}), ("theory, inside", {"lw": 1.2, "ls": ":"})], 4,
+    )  # fmt: skip
     return drawn and finish(figure, path)
 
 
@@ -106,9 +121,9 @@ def creep(path: Path, results: Collection) -> bool:
     if not schemes:
         return False
     figure, axes = plt.subplots(
-        2, len(schemes), figsize=(5 * len(schemes), 8), layout="constrained", squeeze=False, sharey="row"
+        len(schemes), 2, figsize=(11, 3.3 * len(schemes)), layout="constrained", squeeze=False, sharey="col", sharex=True
     )
-    for column, s in zip(axes.T, schemes):
+    for (left, right), s in zip(axes, schemes):
         by_step = [(f"cfl {c:g}", runs.creep(s.key, cfl=c)) for c in s.cfls]
         by_delta = [(f"delta {d:g}", runs.creep(s.key, delta=d)) for d in s.deltas[1:]]
         for tried, color, line in ((by_step, COLORS[s.key], "-"), (by_delta, "#444444", "--")):
@@ -117,33 +132,34 @@ def creep(path: Path, results: Collection) -> bool:
                 if not result:
                     continue
                 series = result.tables["series"]
-                column[0].plot(series["time"], series["peak_height"] / runs.WIDTH, line, color=shade, lw=1.7, label=label)
+                left.plot(series["time"], series["peak_height"] / runs.WIDTH, line, color=shade, lw=1.7, label=label)
                 speed = np.maximum(series["rms_speed"] / SPEED_UNIT, 1e-9)
-                column[1].plot(series["time"], speed, line, color=shade, lw=1.2)
-        column[0].set_title(s.label)
-        column[0].legend(fontsize=10)
-        column[1].set_yscale("log")
-        column[1].set_xlabel("t (s)")
-    axes[0, 0].set_ylabel("peak y/L")
-    axes[1, 0].set_ylabel("rms speed / √(g d)")
+                right.plot(series["time"], speed, line, color=shade, lw=1.2)
+        left.set_title(s.label, fontsize=14, loc="left")
+        left.set_ylabel("peak y/L")
+        right.legend(*left.get_legend_handles_labels(), fontsize=12, loc="center left", bbox_to_anchor=(1.0, 0.5))
+        right.set_yscale("log")
+        right.set_ylabel("rms speed / √(g d)")
+    for ax in axes[-1]:
+        ax.set_xlabel("t (s)")
     return finish(figure, path)
 
 
 def drift(path: Path, results: Collection) -> bool:
-    figure, (left, right) = plt.subplots(1, 2, figsize=(14, 5.4), layout="constrained")
-    drawn = False
+    """Which of a scheme's lines is which: from light to dark in the order of the table."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5), layout="constrained")
+    drawn = []
     for s in runs.SCHEMES.values():
         rests = runs.rests_of(s)
         for rest, shade in zip(rests, _shades(COLORS[s.key], len(rests))):
-            label = rest.label if rest.resolution == 16 else f"{rest.label}, L/dl = {rest.resolution}"
             line = "-" if rest.resolution == 16 else "--"
             result = results(rest.run)
             if not result:
                 continue
-            drawn = True
+            drawn += [s] * (s not in drawn)
             series = result.tables["series"]
             later = series["time"] > runs.DRIFT_FROM
-            left.plot(series["time"][later], np.maximum(series["drift"][later], 1e-12), line, color=shade, label=label)
+            left.plot(series["time"][later], np.maximum(series["drift"][later], 1e-12), line, color=shade)
             right.plot(series["time"], np.maximum(series["kinetic_share"], 1e-34), line, color=shade, lw=1.2)
     left.set_ylabel("largest displacement since 3 s / dl")
     right.set_ylabel("kinetic energy / E0")
@@ -156,8 +172,8 @@ def drift(path: Path, results: Collection) -> bool:
         ticks = [t for t in (0.1, 0.3, 1, 3, 10, 30, 60) if t >= first]
         ax.set_xticks(ticks, [f"{t:g}" for t in ticks])
         ax.minorticks_off()
-    legend_above(figure, left, 3)
-    return drawn and finish(figure, path)
+    _legend_of_schemes(figure, drawn, [("L/dl = 16", {}), ("L/dl = 32", {"ls": "--"})], 6)
+    return bool(drawn) and finish(figure, path)
 
 
 def pressure(path: Path, results: Collection) -> bool:

@@ -9,7 +9,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import document
+import headlines
 import long_shear
+import repeated
 import runs
 import sections
 import theory
@@ -31,7 +33,9 @@ LIMITS_CAPTION = (
     "paper's schemes; in the others it is 0.6 of the dotted one"
 )
 CREEP_CAPTION = "Peak and rms speed against time, by time step (full) and by delta (dashed); 1e-9 and less drawn as 1e-9"
-DRIFT_CAPTION = "Left: largest displacement since 3 s. Right: kinetic energy. L/dl = 16 unless it says otherwise"
+DRIFT_CAPTION = (
+    "Left: largest displacement since 3 s. Right: kinetic energy. The lines of a scheme are from light to dark in the order of the table above"
+)
 
 
 def compose(collection: Collection, drawn: set[str]) -> str:
@@ -233,7 +237,7 @@ results in `results/stability`. Every number is measured by a run or computed fr
 {bullets(verdicts.in_short(collection))}
 
 """
-    return tidy(head + body + missing_runs(collection))
+    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n{missing_runs(collection)}")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from theory import SHEAR_TO_BULK
 
 GRAVITY, HEIGHT, WIDTH = 9.81, 0.05, 0.08  # m/s2, m, m: of every trial
 # Particle-steps per CPU second of one core, for the estimates of the remaining time only.
-TYPICAL_RATE = 1.1e6
+TYPICAL_RATE = 2.4e6
 SOUND_SPEED = 10 * math.sqrt(2 * GRAVITY * HEIGHT)  # m/s, automatic
 ARREST = 0.42  # s, by when the default scheme's collapse has come to rest
 
@@ -21,7 +21,7 @@ PROGRAMS = {
     "stability": Program(
         "bench/stability",
         (
-            *(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "roughness", "trial", "table", "options")),
+            *(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "marks", "roughness", "trial", "table", "options")),
             "examples/c/example.[ch]",
         ),
         records=True,

@@ -5,12 +5,13 @@ from run import Program, Run
 
 PROGRAM = Program(
     "bench/fluidity",
-    ("bench/fluid*.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
+    ("bench/fluid*.[ch]", "bench/marks.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
 )
 
 SPEED, SLOW_SPEED = 0.003, 0.0003  # m/s, of the lid; the slow one is that of Jin et al. (2021)
 GRAINS = (1, 2, 3, 5)  # depths below the lid at which the program prints the velocity
 PER_GRAIN = (2, 4, 8)  # spacings
+ANNULAR = ((2, 4), (2, 2.2), (4, 4), (4, 2.2))  # spacings in a grain, horizon in spacings
 HORIZONS = (2.2, 3)  # beside the default's
 # Spacings in a grain, degrees, spacings in the layers: the highest below .93 and the lowest above 1.05 stopping heights.
 LAYERS = (
@@ -33,12 +34,24 @@ def couette(
     if slow:
         arguments += ["--speed", f"{SLOW_SPEED:g}", "--sound-speed", "10", "--end", "6"]
     name = f"fluid_couette_{per_grain}_h{horizon:g}_a{amplitude:g}_{preset}{'_slow' if slow else ''}"
-    cost = 0.2 * per_grain**3 * (horizon / 4) ** 2 * (4 if preset == "paper" else 1) * (12 if slow else 1)
+    cost = 0.23 * per_grain**2.2 * (horizon / 4) ** 2 * (4 if preset == "paper" else 1) * (12 if slow else 1)
     return Run(name, "fluidity", tuple(arguments), cost)
 
 
+def glued(per_grain: int) -> Run:
+    """Below a lid whose grains are glued to it: the fluidity is 0 there."""
+    arguments = ("couette", "--per-grain", str(per_grain), "--lid", "zero")
+    return Run(f"fluid_couette_{per_grain}_glued", "fluidity", arguments, 0.16 * per_grain**2.3)
+
+
+def annular(per_grain: int, horizon: float = 4) -> Run:
+    more = () if horizon == 4 else ("--horizon", f"{horizon:g}")
+    arguments = ("annular", "--per-grain", str(per_grain), *more)
+    return Run(f"fluid_annular_{per_grain}_h{horizon:g}", "fluidity", arguments, 0.22 * per_grain**3 * (horizon / 4) ** 0.5)
+
+
 def shear(per_grain: int) -> Run:
-    return Run(f"fluid_shear_{per_grain}", "fluidity", ("shear", "--per-grain", str(per_grain)), 0.15 * per_grain**3)
+    return Run(f"fluid_shear_{per_grain}", "fluidity", ("shear", "--per-grain", str(per_grain)), 0.1 * per_grain**3)
 
 
 def incline(per_grain: int, angle: int, rows: int) -> Run:
@@ -46,7 +59,7 @@ def incline(per_grain: int, angle: int, rows: int) -> Run:
         f"fluid_incline_{per_grain}_{angle}_{rows}",
         "fluidity",
         ("incline", "--per-grain", str(per_grain), "--angle", str(angle), "--rows", str(rows), "--end", "3"),
-        0.06 * per_grain * rows,
+        0.05 * per_grain * rows,
     )
 
 
@@ -56,7 +69,7 @@ def collapse(rows: int, amplitude: float = 0.48, jitter: float = 0, end: float =
         f"fluid_collapse_{rows}_a{amplitude:g}_j{jitter:g}_t{end:g}",
         "fluidity",
         ("collapse", *options),
-        3.0 * (rows / 32) ** 3 * end / 2,
+        2.5 * (rows / 32) ** 3 * end / 2,
     )
 
 
@@ -67,6 +80,8 @@ def fluid() -> list[Run]:
         + [couette(2, slow=True)]
         + [couette(n, amplitude=0) for n in PER_GRAIN[:2]]
         + [couette(2, amplitude=0, preset="paper")]
+        + [glued(n) for n in PER_GRAIN]
+        + [annular(n, horizon) for n, horizon in ANNULAR]
         + [shear(n) for n in PER_GRAIN[:2]]
         + [incline(n, angle, rows) for n, angle, both in LAYERS for rows in both]
         + [collapse(rows, amplitude) for rows in COLUMNS for amplitude in (0, 0.48)]

@@ -11,10 +11,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 import document
 import figures
 import fluid_sections as fluidity
+import headlines
 import hopper_section as hopper
 import paper_sections as paper
 import physics_sections as physics
 import references as ref
+import repeated
 import runs
 import verdicts
 import wall_sections as walls
@@ -206,7 +208,7 @@ from the results in `results/validation`. Every number is measured by a run or c
 {bullets(short)}
 
 """
-    return tidy(head + body + missing_runs(collection))
+    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n{missing_runs(collection)}")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,8 @@ import math
 from dataclasses import dataclass
 
 import references as ref
+from convergence_runs import PROGRAM as COLLAPSE
+from convergence_runs import convergence
 from fluid_runs import PROGRAM as FLUIDITY
 from fluid_runs import fluid
 from run import Program, Run, cheapest_first
@@ -21,16 +23,17 @@ SIDE_WALLS = (1.8, 4.0, 8.0, 12.0, 16.0)  # 1/m; 1.8: the channel of Mangeney et
 
 GRAVITY = 9.81  # m/s2
 # Particle-steps per CPU second of one core, for the estimates of the remaining time only.
-TYPICAL_RATE = 1.0e6
+TYPICAL_RATE = 2.3e6
 
 PROGRAMS = {
     "scene": Program(
         "bench/scene",
-        ("bench/scene.c", "bench/options.[ch]", "bench/record.[ch]", "bench/table.[ch]", "examples/c/example.[ch]"),
+        ("bench/scene.c", "bench/options.[ch]", "bench/record.[ch]", "bench/marks.[ch]", "bench/table.[ch]", "examples/c/example.[ch]"),
         records=True,
     ),
     "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
     "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),
+    "collapse": COLLAPSE,
     "walls": WALLS,
     "fluidity": FLUIDITY,
 }
@@ -367,6 +370,7 @@ def studies() -> dict[str, list[Run]]:
         "contact_dynamics": [contact_dynamics(a) for a in ref.CONTACT_DYNAMICS],
         "couette": [couette(case) for case in COUETTE_CASES],
         "exact": [exact(case, r) for case, (_, _, resolutions, _) in EXACT_CASES.items() for r in resolutions],
+        "convergence": convergence(),
         "walls": walls(),
         "hopper": hoppers(),
         "fluidity": fluid(),

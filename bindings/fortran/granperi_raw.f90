@@ -7,7 +7,7 @@ module granperi_raw
     public
 
     integer(c_int32_t), parameter :: GP_VERSION_MAJOR = 0
-    integer(c_int32_t), parameter :: GP_VERSION_MINOR = 1
+    integer(c_int32_t), parameter :: GP_VERSION_MINOR = 2
     integer(c_int32_t), parameter :: GP_VERSION_PATCH = 0
 
     integer, parameter :: gp_status = c_int32_t
@@ -129,7 +129,7 @@ module granperi_raw
         integer(c_int32_t) :: retry_halvings
             !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
             !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
-        integer(c_int32_t) :: sleep
+        integer(c_int64_t) :: sleep
             !! 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in every step. Only
             !! with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0]
     end type
@@ -567,7 +567,7 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The same as text, e.g. "0.1.0".
+        !> The same as text, e.g. "0.2.0".
         function gp_version_string() bind(c, name="gp_version_string") result(answer)
             import
             type(c_ptr) :: answer
@@ -914,11 +914,11 @@ module granperi_raw
         !> before. A program that is killed may leave the part, to be deleted. After GP_E_IO (disk full, no such
         !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. Memory:
         !> about twice the size of the file, 200 to 300 bytes per particle. gp_load refuses a file that is cut off,
-        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another format (0.1 wrote 1, this
-        !> version 2): GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;
-        !> another one may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED
-        !> in a build without HDF5. C has one name space for types and functions, and gp_load is also the type above:
-        !> hence a macro over the function gp_load_file (binaries also export it as gp_load).
+        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another format, as those of 0.1 are:
+        !> GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one
+        !> may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build
+        !> without HDF5. C has one name space for types and functions, and gp_load is also the type above: hence a macro
+        !> over the function gp_load_file (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim

@@ -66,7 +66,7 @@ contains
         c_string = trim(text)//c_null_char
     end function
 
-    !> Version of the library that runs, e.g. "0.1.0".
+    !> Version of the library that runs, e.g. "0.2.0".
     function version_string() result(text)
         character(:), allocatable :: text
         text = text_of(gp_version_string())

@@ -217,7 +217,7 @@ contains
         integer(c_int32_t), intent(in), optional :: retry_halvings
             !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
             !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
-        integer(c_int32_t), intent(in), optional :: sleep
+        integer(c_int64_t), intent(in), optional :: sleep
             !! 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in every step. Only
             !! with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0]
         integer(c_int32_t), intent(out), optional :: status

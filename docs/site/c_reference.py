@@ -98,8 +98,9 @@ def of_constants(constants, roles):
     return lines
 
 
-def of_function(function, roles, shared, callbacks):
-    """The page of a call. shared: the function whose comment it shares; callbacks: the types of functions that it may take."""
+def of_function(function, roles, shared, callbacks, of_fortran):
+    """The page of a call. shared: the function whose comment it shares; callbacks: the types of functions that it may take;
+    of_fortran: {C function: name of a page}."""
     doc = text.paragraphs(shared.doc, roles)
     for callback in callbacks:
         if any(parameter.type.base == callback.name for parameter in function.parameters):
@@ -107,7 +108,16 @@ def of_function(function, roles, shared, callbacks):
     signature = "%s%s(%s)" % (c_type(function.result), function.name, parameters_of(function))
     return [*text.titled(function.name), ".. c:function:: " + signature.replace("  ", " "), "", *text.indented(doc), "",
             *c_calls.argument_table(function, roles), *c_calls.errors_of(function, shared.doc, roles),
-            *c_calls.example_lines(function), *c_calls.elsewhere(function)]
+            *c_calls.example_lines(function), *c_calls.elsewhere(function, of_fortran)]
+
+
+def comments_of(header):
+    """{function: its comment, or that of the function before it, which it shares}."""
+    found, doc = {}, ""
+    for function in header.of(Function):
+        doc = function.doc or doc
+        found[function.name] = doc
+    return found
 
 
 def first_sentence(doc):
@@ -132,8 +142,9 @@ def of_declaration(declaration, roles):
     raise ReferenceError_("nothing is known of %r" % (declaration,))
 
 
-def write_c_reference(header_path, cc, directory):
-    """The names of all public functions."""
+def write_c_reference(header_path, cc, directory, of_fortran=(), more=()):
+    """The names of all public functions. of_fortran: {C function: name of its page in the Fortran reference}; more: pages that
+    others write beside these."""
     with open(header_path, encoding="utf-8") as source:
         source = source.read()
     header = read_header(header_path, cc, text.lines_of)
@@ -161,7 +172,7 @@ def write_c_reference(header_path, cc, directory):
                 shared = declaration if declaration.doc else shared
                 calls += ["   * - :doc:`%s`" % declaration.name, "     - " + text.linked(first_sentence(shared.doc), known)]
                 with open(os.path.join(directory, declaration.name + ".rst"), "w", encoding="utf-8") as page:
-                    page.write("\n".join(of_function(declaration, known, shared, header.of(Callback))))
+                    page.write("\n".join(of_function(declaration, known, shared, header.of(Callback), of_fortran)))
                 functions.append(declaration.name)
             else:
                 lines += of_declaration(declaration, known)
@@ -178,5 +189,5 @@ def write_c_reference(header_path, cc, directory):
     conventions = conventions.split("\n\n", 1)[1]  # the first line is the project's name
     with open(os.path.join(directory, "index.rst"), "w", encoding="utf-8") as page:
         page.write("\n".join([*text.titled("C: granperi/gp.h"), *text.paragraphs(conventions, roles), "",
-                              ".. toctree::", "   :maxdepth: 2", "", *text.indented(pages), ""]))
+                              ".. toctree::", "   :maxdepth: 2", "", *text.indented([*pages, *more]), ""]))
     return [function.name for function in header.of(Function)]

@@ -22,7 +22,7 @@ autodoc_typehints = "signature"
 autodoc_preserve_defaults = True
 add_module_names = False
 python_use_unqualified_type_names = True
-nitpick_ignore_regex = [("c:identifier", r"u?int(32|64)_t|size_t"),  # what other documents describe
+nitpick_ignore_regex = [("c:identifier", r"u?int(32|64)_t|size_t|MPI_Comm"),  # what other documents describe
                         ("py:class", r"(numpy|np|os|matplotlib|typing)\..*|Unpack.*|\w+Values|Engine|granperi\._.*")]
 html_theme = "furo"
 html_title = "granperi " + release

@@ -3,6 +3,9 @@ import collections
 import os
 import re
 
+import c_calls
+import c_reference
+import fortran_calls
 import text
 
 Procedure = collections.namedtuple("Procedure", "kind name arguments result declarations doc")
@@ -10,6 +13,7 @@ Procedure = collections.namedtuple("Procedure", "kind name arguments result decl
 # What the C function of a procedure's name is called where it is not gp_NAME or gp_get_NAME.
 SAME_AS = {"interface_between": "gp_get_interface", "copy": "gp_copy_field", "load": "gp_load_file",
            "remove_callback": "gp_set_callback", "remove_log": "gp_set_log"}
+PROCEDURES = ("gp_on_step", "gp_on_log", "gp_log_to_stderr")
 
 
 class FortranError(Exception):
@@ -76,45 +80,58 @@ def described(signature, lines):
     return [".. fortran:: " + signature, "", *text.indented(lines), ""]
 
 
+def same_in_c(name, functions):
+    """The C function that a procedure stands for, or None."""
+    return SAME_AS.get(name) or next((c for c in ("gp_" + name, "gp_get_" + name) if c in functions), None)
+
+
 def arguments_of(procedure):
-    lines = []
-    for argument in procedure.arguments:
-        if argument in ("self", "status", "message") or argument not in procedure.declarations:
-            continue
-        lines.append("- ``%s``: ``%s``" % (argument, procedure.declarations[argument]))
-    if procedure.result:
-        lines.append("- result: ``%s``" % procedure.declarations[procedure.result])
+    lines = ["- ``%s``: ``%s``" % (argument, procedure.declarations[argument]) for argument in procedure.arguments
+             if argument in procedure.declarations]
     return [*lines, ""] if lines else []
 
 
-def of_bound(name, procedure, functions):
-    same = SAME_AS.get(name) or next((c for c in ("gp_" + name, "gp_get_" + name) if c in functions), None)
-    lines = text.paragraphs("\n".join(procedure.doc))
-    if same:
-        lines += ["", "In C: :c:func:`%s`." % same]
-    elif not procedure.doc:
+def page_of(name, procedure, header, roles):
+    """The page of one procedure of a simulation."""
+    functions = {function.name: function for function in header.of(c_reference.Function)}
+    same = same_in_c(name, functions)
+    if not same and not procedure.doc:
         raise FortranError("%s has no comment (!>)" % name)
-    lines += ["", *arguments_of(procedure)]
     arguments = ", ".join(argument for argument in procedure.arguments if argument != "self")
-    call = "call sim%%%s(%s)" if procedure.kind == "subroutine" else "sim%%%s(%s)"
-    return described(call % (name, arguments), lines)
+    call = ("call sim%%%s(%s)" if procedure.kind == "subroutine" else "sim%%%s(%s)") % (name, arguments)
+    lines = [*text.titled("sim%" + name), ".. fortran:: " + call, "",
+             *text.indented(text.paragraphs("\n".join(procedure.doc), roles)), ""]
+    lines += fortran_calls.argument_table(name, procedure, same, roles)
+    comment = c_reference.comments_of(header).get(same, "")
+    if same:
+        lines += [".. rubric:: In C", "", ":c:func:`%s` does the same:" % same, "", *text.paragraphs(comment, roles), "",
+                  *c_calls.errors_of(functions[same], comment, roles)]
+    lines += fortran_calls.example_lines(name, procedure.kind == "function")
+    return lines + (c_calls.in_python(same) if same else [])
 
 
-def simulation_page(statements, functions):
-    procedures = procedures_of(statements)
+def simulation_pages(statements, header, roles):
+    """{name: lines} of the page of the type, and of each of its procedures."""
+    procedures, pages = procedures_of(statements), {}
     lines = [*text.titled("type(gp_simulation)"),
              "``sim`` is a ``type(gp_simulation)``. Every procedure ends with the optional ``status`` and ``message``; without "
-             "both, an error ends the program with the message (:doc:`/guide/errors`).", ""]
+             "both, an error ends the program with the message (:doc:`/guide/errors`).", "",
+             ".. list-table::", "   :widths: 30 70", ""]
+    functions = c_reference.comments_of(header)
     for name, made_of in bound_to(statements, "gp_simulation").items():
         if name.startswith("assignment"):
             continue
-        lines += of_bound(name, procedures[made_of[0]], functions)
-    lines += text.titled("Procedures of the host", "-")
-    for name in ("gp_on_step", "gp_on_log", "gp_log_to_stderr"):
+        procedure = procedures[made_of[0]]
+        pages[name] = page_of(name, procedure, header, roles)
+        words = " ".join(procedure.doc) or functions[same_in_c(name, functions)]
+        lines += ["   * - :doc:`sim%%%s <%s>`" % (name, name), "     - " + text.linked(c_reference.first_sentence(words), roles)]
+    lines += ["", ".. toctree::", "   :hidden:", "", *text.indented(list(pages)), ""]
+    hosts = text.titled("Procedures of the host")
+    for name in PROCEDURES:
         procedure = procedures[name]
-        lines += described("subroutine %s(%s)" % (name, ", ".join(procedure.arguments)),
+        hosts += described("subroutine %s(%s)" % (name, ", ".join(procedure.arguments)),
                            [*text.paragraphs("\n".join(procedure.doc)), "", *arguments_of(procedure)])
-    return lines
+    return {"simulation": lines, **pages, "procedures": hosts}
 
 
 def objects_page(statements):
@@ -141,15 +158,28 @@ def status_part(statements):
     return lines
 
 
-def write_fortran_reference(sources, functions, directory):
-    """functions: names of the C interface. Returns the public names."""
+def c_functions(sources, header):
+    """{C function: name of the page of the procedure that does the same}"""
+    functions = c_reference.comments_of(header)
+    bound = bound_to(statements_of(os.path.join(sources, "granperi_simulation.f90")), "gp_simulation")
+    found = {}
+    for name in bound:
+        same = same_in_c(name, functions)
+        if same:
+            found.setdefault(same, name)
+    return found
+
+
+def write_fortran_reference(sources, header, directory):
+    """header: what gp.h declares. Returns the public names."""
     os.makedirs(directory)
     simulation = statements_of(os.path.join(sources, "granperi_simulation.f90"))
     types = statements_of(os.path.join(sources, "granperi_types.f90"))
     status = statements_of(os.path.join(sources, "granperi_status.f90"))
-    pages = {"simulation": simulation_page(simulation, functions), "objects": objects_page(types) + status_part(status)}
+    pages = simulation_pages(simulation, header, c_reference.roles_of(header))
+    pages["objects"] = objects_page(types) + status_part(status)
     pages["index"] = [*text.titled("Fortran: use granperi"), "The guide is :doc:`/guide/fortran`.", "",
-                      ".. toctree::", "   :maxdepth: 1", "", *text.indented(list(pages)), ""]
+                      ".. toctree::", "   :maxdepth: 1", "", *text.indented(["simulation", "procedures", "objects"]), ""]
     for name, lines in pages.items():
         with open(os.path.join(directory, name + ".rst"), "w", encoding="utf-8") as page:
             page.write("\n".join(lines))

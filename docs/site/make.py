@@ -16,8 +16,10 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from c_reference import write_c_reference  # noqa: E402
-from fortran_reference import write_fortran_reference  # noqa: E402
+import text  # noqa: E402
+from c_reference import read_header, write_c_reference  # noqa: E402
+from fortran_reference import c_functions, write_fortran_reference  # noqa: E402
+from mpi_reference import write_mpi_reference  # noqa: E402
 from python_reference import write_python_reference  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -40,6 +42,8 @@ def target_of(page, link):
     up = "../" * page.count("/")
     if path == "include/granperi/gp.h":
         return up + "reference/c/index.rst"
+    if path == "include/granperi/gp_mpi.h":
+        return up + "reference/c/mpi.rst"
     if path.startswith("examples/"):
         return up + "examples/" + (path[len("examples/"):] + ".md" if os.path.isfile(os.path.join(ROOT, path)) else "index.md")
     if path.startswith("docs/") and path.endswith((".md", ".png")):
@@ -124,10 +128,13 @@ def stage(source, cc):
     shutil.copytree(os.path.join(ROOT, "docs", "images"), os.path.join(source, "images"))
     stage_guide(source)
     stage_examples(source)
-    functions = write_c_reference(os.path.join(ROOT, "include", "granperi", "gp.h"), cc, os.path.join(source, "reference", "c"))
-    bound = write_fortran_reference(os.path.join(ROOT, "bindings", "fortran"), functions,
-                                    os.path.join(source, "reference", "fortran"))
-    return functions, write_python_reference(os.path.join(source, "reference", "python")), bound
+    path, fortran = os.path.join(ROOT, "include", "granperi", "gp.h"), os.path.join(ROOT, "bindings", "fortran")
+    header, c_pages = read_header(path, cc, text.lines_of), os.path.join(source, "reference", "c")
+    of_fortran = c_functions(fortran, header)
+    functions = write_c_reference(path, cc, c_pages, of_fortran, more=["mpi"])
+    of_mpi = write_mpi_reference(os.path.join(os.path.dirname(path), "gp_mpi.h"), path, cc, c_pages)
+    bound = write_fortran_reference(fortran, header, os.path.join(source, "reference", "fortran"))
+    return functions + of_mpi, write_python_reference(os.path.join(source, "reference", "python"), header, of_fortran), bound
 
 
 def ids_in(directory):

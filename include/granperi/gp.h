@@ -50,7 +50,7 @@ extern "C" {
 #endif
 
 #define GP_VERSION_MAJOR 0
-#define GP_VERSION_MINOR 1
+#define GP_VERSION_MINOR 2
 #define GP_VERSION_PATCH 0
 
 /* ------------------------------------------------------------------------------------------------ status */
@@ -82,7 +82,7 @@ GP_API const char *gp_last_error(void);
 /* Version of the library that runs, as major * 10000 + minor * 100 + patch. */
 GP_API uint32_t gp_version(void);
 
-/* The same as text, e.g. "0.1.0". */
+/* The same as text, e.g. "0.2.0". */
 GP_API const char *gp_version_string(void);
 
 /* 1 if this build has the named feature, else 0. Features: "hdf5", "openmp", and the instruction set that the engine runs with,
@@ -186,7 +186,7 @@ typedef struct gp_config {
                                     is refused [0] */
     int32_t retry_halvings;      /* a step that diverges is taken anew from where it began in two halves, these in halves
                                     again and so on, up to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0] */
-    int32_t sleep;               /* 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in
+    int64_t sleep;               /* 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in
                                     every step. Only with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0] */
 } gp_config;
 
@@ -664,8 +664,9 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
  * elsewhere. Memory: about twice the size of the file, 200 to 300 bytes per particle.
  *
  * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another
- * format (0.1 wrote 1, this version 2): GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one may load
- * it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5.
+ * format, as those of 0.1 are: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;
+ * another one may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build
+ * without HDF5.
  *
  * C has one name space for types and functions, and gp_load is also the type above: hence a macro over the function
  * gp_load_file (binaries also export it as gp_load). */

@@ -16,8 +16,7 @@
  * of gp_state that are summed up in the course of a run are the same but for rounding.
  *
  * Errors come everywhere with one text, but for GP_E_MEMORY and GP_E_INTERNAL: after these a process may be alone with its error
- * while others wait for it, and MPI_Abort is what is left. gp_config.sleep, the implicit scheme and the paper's schemes are
- * GP_E_UNSUPPORTED. */
+ * while others wait for it, and MPI_Abort is what is left. gp_config.sleep and the paper's schemes are GP_E_UNSUPPORTED. */
 #ifndef GRANPERI_GP_MPI_H
 #define GRANPERI_GP_MPI_H
 
@@ -29,8 +28,8 @@
 extern "C" {
 #endif
 
-/* Collective, as gp_create. MPI has been initialised, with MPI_THREAD_FUNNELED for gp_config.threads other than 1, and is
- * finalised after gp_destroy. The communicator is copied. */
+/* Collective, as gp_create. MPI has been initialised, with MPI_THREAD_FUNNELED for gp_config.threads other than 1, and not yet
+ * finalised, else GP_E_STATE; it is finalised after gp_destroy. The communicator is copied; MPI_COMM_NULL is GP_E_ARGUMENT. */
 GP_API gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim);
 
 /* Collective, as gp_load: of a checkpoint by any number of processes, which every process can read. */

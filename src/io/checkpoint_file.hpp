@@ -2,7 +2,7 @@
 //
 //   byte 0     granperi checkpoint
 //              format 3
-//              library 0.1.0
+//              library 0.2.0
 //              bytes <of the whole file, 20 digits>
 //              checksum <of all other bytes, 16 hexadecimal digits>
 //              and zeros up to byte 512

@@ -41,6 +41,10 @@ void density_of_spacing(World &world) {
     const double inverse = 1.0 / world.constants.lattice.number_density;
     const double strains = world.clock.dt / spacing_strain;
     const bool crowds = !world.crowded.empty();
+    if (crowds) {
+        hand_over(p.ax, p.spaced);
+        hand_over(p.ay, p.known);
+    }
     for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         Lanes lost{};
         for (int64_t first = begin; first < end; first += lane_count) {
@@ -52,11 +56,12 @@ void density_of_spacing(World &world) {
                 modulus[l] = m.bulk_modulus;
             }
             const Lanes before = places.load(p.density.data()), spaced = places.load(p.crowding.data()) * inverse;
-            if (crowds)
-                for (int64_t i = first; i < std::min(end, first + lane_count); ++i) {
-                    const double known = std::max(1.0, before[i - first] / rest[i - first]), n = spaced[i - first];
-                    world.crowded[i] = static_cast<float>(n > 0 ? n + inverse * world.crowded[i] - known : -known);
-                }
+            if (crowds) {
+                const Lanes ratio = before / rest;
+                places.store(p.spaced.data(), std::min(end, first + lane_count), spaced);
+                places.store(p.known.data(), std::min(end, first + lane_count),
+                             choose(ratio > 1.0, ratio, Lanes{} + 1.0));
+            }
             Lanes target = rest * choose(spaced < spacing_ceiling, spaced, Lanes{} + spacing_ceiling);
             const auto closer = target > before;
             target = choose((before < rest) & (target > rest), rest, target);

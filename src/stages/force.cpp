@@ -3,6 +3,7 @@
 #include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"
+#include "stages/crowding.hpp"
 #include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
@@ -16,10 +17,12 @@ struct View {
     const double *cxx, *cxy, *cyx, *cyy;
     double inverse_radius, penalty;
     double *fx, *fy; // N/m3
+    CrowdingView crowding;
 };
 
 struct LaneForce {
     Lanes x, y;
+    Lanes wx, wy; // sum w r
 };
 
 // sum_j w (A_i + A_j) r_ij, and with the penalty on the velocity that the gradient does not see, z_ij = u_j - u_i - L_i r_ij,
@@ -58,27 +61,13 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
             pv += share * (vy[j] - vi);
         }
     }
+    force.wx = wx;
+    force.wy = wy;
     force.x = places.load(cxx) * wx + places.load(cxy) * wy + tx;
     force.y = places.load(cyx) * wx + places.load(cyy) * wy + ty;
     if (Penalty) {
         force.x += 0.5 * v.penalty * pu;
         force.y += 0.5 * v.penalty * pv;
-    }
-}
-
-template <bool Penalty> void force_clusters(const View &v, int64_t begin, int64_t end) {
-    for (int64_t c = begin; c < end; ++c) {
-        const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
-        const LanePlaces places(first, last);
-        LaneForce force;
-        if (v.clusters.is_partly_seen(c))
-            add_neighbors<Penalty, true>(v, c, places, force);
-        else
-            add_neighbors<Penalty, false>(v, c, places, force);
-        for (int64_t i = first; i < last; ++i) {
-            v.fx[i] = force.x[i - first];
-            v.fy[i] = force.y[i - first];
-        }
     }
 }
 
@@ -161,17 +150,45 @@ GP_INLINE void finish_contact(World &world, Contact &contact, const LaneContacts
     contact.power = contact.force_x * p.vx[i] + contact.force_y * p.vy[i];
 }
 
-// The contacts of the clusters begin .. end.
-GP_INLINE void contacts_of_clusters(World &world, int64_t begin, int64_t end) {
+// The contacts of a cluster, and their part of sum w r.
+struct GhostMoment {
+    Lanes x{}, y{};
+};
+
+GhostMoment contacts_of_cluster(World &world, int64_t c) {
     const WallLanes &lanes = world.walls.lanes;
+    const LanePlaces places(world.clusters.first[c], world.clusters.first[c + 1]);
+    GhostMoment moment;
+    for (int64_t g = lanes.of_cluster[c]; g < lanes.of_cluster[c + 1]; ++g) {
+        const LaneContacts sums = sums_of_group(world, g, places);
+        moment.x += sums.wx;
+        moment.y += sums.wy;
+        for (int l = 0; l < lane_count; ++l)
+            if (const int32_t k = lanes.contacts[g].contact[l]; k >= 0)
+                finish_contact(world, world.walls.contacts[k], sums, l);
+    }
+    return moment;
+}
+
+template <bool Penalty> void force_clusters(World &world, const View &v, int64_t begin, int64_t end) {
+    const bool in_reach = world.walls.in_reach();
     for (int64_t c = begin; c < end; ++c) {
-        const LanePlaces places(world.clusters.first[c], world.clusters.first[c + 1]);
-        for (int64_t g = lanes.of_cluster[c]; g < lanes.of_cluster[c + 1]; ++g) {
-            const LaneContacts sums = sums_of_group(world, g, places);
-            for (int l = 0; l < lane_count; ++l)
-                if (const int32_t k = lanes.contacts[g].contact[l]; k >= 0)
-                    finish_contact(world, world.walls.contacts[k], sums, l);
+        const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
+        const LanePlaces places(first, last);
+        LaneForce force;
+        if (v.clusters.is_partly_seen(c))
+            add_neighbors<Penalty, true>(v, c, places, force);
+        else
+            add_neighbors<Penalty, false>(v, c, places, force);
+        if (in_reach && world.walls.lanes.of_cluster[c] < world.walls.lanes.of_cluster[c + 1]) {
+            const GhostMoment ghosts = contacts_of_cluster(world, c);
+            force.wx += ghosts.x;
+            force.wy += ghosts.y;
         }
+        if (v.crowding.crowded)
+            v.crowding.finish(places, last, force.wx, force.wy);
+        places.store(v.fx, last, force.x);
+        places.store(v.fy, last, force.y);
     }
 }
 
@@ -182,16 +199,19 @@ void force(World &world) {
     Walls &walls = world.walls;
     walls.clear_loads();
     const Constants &c = world.constants;
+    const CrowdingView crowding(world);
+    if (crowding.crowded) {
+        hand_over(p.spaced, p.ax);
+        hand_over(p.known, p.ay);
+    }
     const View view{Clusters(world),   p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),
                     p.stressed.data(), p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(),
-                    1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data()};
+                    1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data(),  crowding};
     const bool in_reach = walls.in_reach();
     const auto clusters = c.penalty > 0 ? force_clusters<true> : force_clusters<false>;
     for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         const int32_t *of_block = world.clusters.cluster_of_block.data();
-        clusters(view, of_block[block], of_block[block + 1]);
-        if (in_reach)
-            contacts_of_clusters(world, of_block[block], of_block[block + 1]);
+        clusters(world, view, of_block[block], of_block[block + 1]);
         double power = 0, acceleration2 = 0;
         for (int64_t i = begin; i < end; ++i) {
             double fx = p.ax[i], fy = p.ay[i];

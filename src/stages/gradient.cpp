@@ -1,5 +1,5 @@
-// Shape tensor and velocity gradient of each particle; where it flows also the number density and whether a free surface is
-// near, and with density diffusion the sums of that, over the same pairs.
+// Shape tensor and velocity gradient of each particle; where it flows also the number density, and with density diffusion the
+// sums of that, over the same pairs.
 #include "lanes.hpp"
 #include "operators.hpp"
 #include "parallel.hpp"
@@ -20,24 +20,20 @@ struct View {
     Contact *contacts;
     const double *gx, *gy, *gvx, *gvy;
     const WallLanes *ghosts; // NULL: no plate is in reach
-    double inverse_radius, lattice_moment, surface_lack, inverse_surface_moment2;
+    double inverse_radius, lattice_moment;
     double *lxx, *lxy, *lyx, *lyy, *ixx, *ixy, *iyy;
     double *carried; // NULL: no plates
     const double *flowing;
     double *crowding;
-    float *lack; // NULL: no collisions
     ExchangeView exchange;
 };
 
 struct LaneMoments {
-    Lanes n{}, x{}, y{}, kxx{}, kxy{}, kyy{}, mxx{}, mxy{}, myx{}, myy{};
+    Lanes n{}, kxx{}, kxy{}, kyy{}, mxx{}, mxy{}, myx{}, myy{};
 
     template <bool Counted> GP_INLINE void add(const LanePair &pair, const Lanes &du, const Lanes &dv) {
-        if (Counted) {
+        if (Counted)
             n += pair.weight;
-            x += pair.wdx;
-            y += pair.wdy;
-        }
         kxx += pair.wdx * pair.dx;
         kxy += pair.wdx * pair.dy;
         kyy += pair.wdy * pair.dy;
@@ -47,7 +43,7 @@ struct LaneMoments {
         myy += dv * pair.wdy;
     }
     GP_INLINE Moments of(int lane) const {
-        return {n[lane], x[lane], y[lane], kxx[lane], kxy[lane], kyy[lane], mxx[lane], mxy[lane], myx[lane], myy[lane]};
+        return {n[lane], kxx[lane], kxy[lane], kyy[lane], mxx[lane], mxy[lane], myx[lane], myy[lane]};
     }
 };
 
@@ -113,18 +109,6 @@ GP_INLINE void keep_inner_gradient(const Tensor &l, Contact &first) {
     first.inner_yy = l(1, 1);
 }
 
-// Of the squared first moment in the row at a free surface: below it is taken to be that of disorder, about a hundredth in the
-// middle of sheared layers.
-constexpr double moment_of_disorder = 0.04;
-
-// What N lacks for a free surface within the horizon: the neighbours that are left lie to one side. By the square of the first
-// moment this is exact in the row at the surface; on the lattice of a horizon of 4 the first three rows, with .634, .908 and .991
-// of N0, get 1, .957 and .991. It is 0 in the middle of the material, and too little at corners.
-GP_INLINE double lack_of(const View &v, const Moments &m) {
-    const double share = (m.x * m.x + m.y * m.y) * v.inverse_surface_moment2 - moment_of_disorder;
-    return share > 0 ? v.surface_lack / (1 - moment_of_disorder) * share : 0.0;
-}
-
 // m: of its neighbours; ghosts: of plates.
 GP_INLINE void finish(const View &v, int64_t i, Moments m, const Moments &ghosts) {
     const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
@@ -147,8 +131,6 @@ GP_INLINE void finish(const View &v, int64_t i, Moments m, const Moments &ghosts
     v.lyx[i] = l(1, 0);
     v.lyy[i] = l(1, 1);
     v.crowding[i] = v.flowing[i] > 0 ? m.n - 1 : 0.0; // without itself
-    if (v.lack)
-        v.lack[i] = static_cast<float>(lack_of(v, m));
 }
 
 template <bool Flows, class Exchange> GP_INLINE void cluster_gradient(const View &v, int64_t cluster) {
@@ -209,8 +191,6 @@ View view_of(World &world, const ExchangeView &exchange) {
             w.in_reach() ? &w.lanes : nullptr,
             1.0 / world.constants.horizon,
             world.constants.lattice.second_moment,
-            world.constants.lattice.surface_lack,
-            1.0 / (world.constants.lattice.surface_moment * world.constants.lattice.surface_moment),
             p.lxx.data(),
             p.lxy.data(),
             p.lyx.data(),
@@ -221,7 +201,6 @@ View view_of(World &world, const ExchangeView &exchange) {
             p.carried.empty() ? nullptr : p.carried.data(),
             p.flowing.data(),
             p.crowding.data(),
-            world.crowded.empty() ? nullptr : world.crowded.data(),
             exchange};
 }
 

@@ -33,13 +33,10 @@ void pressure_over_shape(World &world) {
         world.sums[block].bulk = p.volume * damped * dt;
         world.sums[block].internal_power = p.volume * internal;
     });
-    world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
     if (penalty)
-        world.images.copy(p.stressed);
-    if (world.walls.in_reach())
-        world.images.copy({&p.pressure, &p.density, &p.sxx, &p.sxy});
-    else if (!world.crowded.empty()) // collisions ask for it
-        world.images.copy(p.pressure);
+        world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density, &p.stressed});
+    else
+        world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &p.pressure, &p.density});
 }
 
 } // namespace gp::stages

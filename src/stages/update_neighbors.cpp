@@ -88,12 +88,16 @@ void make_lists(World &world) {
     origin.plates.clear();
     for (const Plate &plate : world.walls.plates)
         origin.plates.push_back(plate.state());
-    // Ghosts up to `radius` beyond the particles extrapolate from what is within `radius` of them.
+    // Ghosts up to `radius` beyond the particles extrapolate from what is within `radius` of them. In the implicit scheme a ghost
+    // exerts its force on the particles about its mirror point, which may be as far in front of the wall as it is behind it, and
+    // gets it from what sees it; past a convex corner both are up to sqrt(3) radii apart.
+    const bool mirrored = c.scheme == Scheme::implicit;
+    const double far = (mirrored ? 3 : 2) * radius;
     if (world.crossing) {
-        world.halo->find(world.particles, frame, c.period, 2 * radius);
+        world.halo->find(world.particles, frame, c.period, far);
         world.images.make(world.particles, world.grid, *world.halo);
     } else if (c.period) {
-        world.images.make(world.particles, world.grid, c.period, 2 * radius);
+        world.images.make(world.particles, world.grid, c.period, far);
     }
     if (world.crossing || c.period) {
         const int64_t size = std::max<int64_t>(1, world.particles.count + world.images.count);
@@ -113,14 +117,15 @@ void make_lists(World &world) {
         find();
     if (c.scheme != Scheme::adjoint)
         find_neighbors(world.particles, world.clusters, radius, world.threads, world.neighbors);
-    world.walls.find_contacts(world.particles, world.grid, world.images, world.box, radius, c.reach, c.spacing,
+    const double about_mirrors = mirror_reach * c.spacing + world.skin;
+    world.walls.find_contacts(world.particles, world.grid, world.images, world.box, radius,
+                              mirrored && world.images.in_use() ? radius + about_mirrors : 0.0, c.reach, c.spacing,
                               !by_number_density(c.scheme), world.threads);
     if (by_number_density(c.scheme))
         world.walls.find_wall_particles(c.spacing);
     world.walls.lanes.make(world.walls, world.clusters, world.grid, world.images);
-    if (c.scheme == Scheme::implicit)
-        world.mirrors.find(world.walls, world.particles, world.grid, world.images,
-                           mirror_reach * c.spacing + world.skin);
+    if (mirrored)
+        world.mirrors.find(world.walls, world.particles, world.grid, world.images, about_mirrors, world.crossing);
     world.lists_valid = world.lists_new = world.lists_whole = world.sleep.stale = true;
     world.listed.clear();
 }

@@ -410,7 +410,7 @@ void make_room(World &world) {
         field->resize(n);
     for (Field<double> *field : {&v.kxx, &v.kxy, &v.kyy, &v.stiffness, &v.beside, &v.lxx, &v.lxy, &v.lyx, &v.lyy})
         field->resize(with_images);
-    v.partial.resize(block_count(n));
+    v.blocks.resize(static_cast<std::size_t>(block_count(n)));
 }
 
 } // namespace
@@ -462,8 +462,7 @@ void viscous_forces(World &world, const VectorField &s, const VectorField &u, Ve
             p.cyy[i] = s.y[i] * p.gxy[i] - s.x[i] * p.gyy[i] - c * v.lyy[i];
         }
     });
-    world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy});
-    world.images.copy({&v.lxx, &v.lxy, &v.lyx, &v.lyy});
+    world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &v.lxx, &v.lxy, &v.lyx, &v.lyy});
     if (world.walls.in_reach())
         find_ghost_forces(world, u);
     const View view(world);

@@ -1,13 +1,15 @@
 // The regularised law solved implicitly (GP_STRESS_IMPLICIT): Newton's method for the equations of viscous_operators.hpp,
 // each linear system by conjugate gradients with a diagonal preconditioner.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "binned_sum.hpp"
 #include "error.hpp"
 #include "material/linearized.hpp"
 #include "parallel.hpp"
+#include "parts.hpp"
 #include "stages/push.hpp"
 #include "stages/stages.hpp"
 #include "stages/viscous_operators.hpp"
@@ -16,16 +18,40 @@ namespace gp::stages {
 
 namespace {
 
-// Sum over particles of term(i), in an order that no number of threads changes.
-template <class Term> double sum_of(World &world, const Term &term) {
-    Field<double> &partial = world.viscous.partial;
+// Sum over the particles here of term(i).
+template <class Term> BinnedSum part_of_sum(World &world, const Term &term) {
+    std::vector<BinnedBlock> &blocks = world.viscous.blocks;
     for_each_block(world.threads, world.particles.count, [&](int64_t block, int64_t begin, int64_t end) {
-        double sum = 0;
-        for (int64_t i = begin; i < end; ++i)
-            sum += term(i);
-        partial[block] = sum;
+        blocks[block] = BinnedSum::block_of(begin, end, term);
     });
-    return std::accumulate(partial.begin(), partial.end(), 0.0);
+    BinnedSum sum;
+    for (const BinnedBlock &block : blocks)
+        sum.add(block);
+    return sum;
+}
+
+// Over the contacts here of term(c).
+template <class Term> void add_contacts(const World &world, BinnedSum &sum, const Term &term) {
+    sum.add(static_cast<int64_t>(world.viscous.wall_laws.size()), term);
+}
+
+// Sums over all particles, whoever has them: what the iterations depend on. So their number, and all bits, are those of a process
+// alone.
+template <std::size_t N>
+std::array<double, N> values_of_all(World &world, std::array<BinnedSum, N> sums, double &largest) {
+    if (world.crossing)
+        combine_sums(*world.crossing, sums.data(), static_cast<int>(N), largest);
+    std::array<double, N> values;
+    for (std::size_t k = 0; k < N; ++k)
+        values[k] = sums[k].value();
+    return values;
+}
+template <class... Term> std::array<double, sizeof...(Term)> sums_of(World &world, const Term &...term) {
+    double none = 0;
+    return values_of_all(world, std::array<BinnedSum, sizeof...(Term)>{part_of_sum(world, term)...}, none);
+}
+template <class Term> double sum_of(World &world, const Term &term) {
+    return sums_of(world, term)[0];
 }
 
 template <class Body> void for_each_particle(World &world, const Body &body) {
@@ -35,8 +61,17 @@ template <class Body> void for_each_particle(World &world, const Body &body) {
     });
 }
 
+// The terms of a dot product.
+auto product(const VectorField &a, const VectorField &b) {
+    return [&](int64_t i) { return a.x[i] * b.x[i] + a.y[i] * b.y[i]; };
+}
+
 double dot(World &world, const VectorField &a, const VectorField &b) {
-    return sum_of(world, [&](int64_t i) { return a.x[i] * b.x[i] + a.y[i] * b.y[i]; });
+    return sum_of(world, product(a, b));
+}
+
+double number_of_particles(const World &world) {
+    return static_cast<double>(world.scene->particle_count()); // everywhere
 }
 
 double inertia(const World &world, int64_t i) {
@@ -87,18 +122,17 @@ void apply(World &world, VectorField &direction, VectorField &image) {
 void conjugate_gradients(World &world, double goal) {
     ViscousSystem &v = world.viscous;
     VectorField &r = v.residual, &p = v.direction;
-    const int64_t n = world.particles.count;
     for_each_particle(world, [&](int64_t i) {
         v.diagonal[i] = 1.0 / (inertia(world, i) + v.diagonal[i]);
         v.change.x[i] = v.change.y[i] = 0;
         p.x[i] = v.diagonal[i] * r.x[i];
         p.y[i] = v.diagonal[i] * r.y[i];
     });
-    double rho = dot(world, r, p);
+    auto [rho, left2] = sums_of(world, product(r, p), product(r, r));
     // In exact arithmetic two per particle would do.
-    const int64_t most = std::max<int64_t>(200, 4 * n);
+    const int64_t most = std::max<int64_t>(200, 4 * world.scene->particle_count());
     for (int64_t k = 0; k < most; ++k) {
-        if (!(std::sqrt(dot(world, r, r)) > goal))
+        if (!(std::sqrt(left2) > goal))
             return;
         apply(world, p, v.image);
         ++v.linear;
@@ -112,10 +146,11 @@ void conjugate_gradients(World &world, double goal) {
             r.x[i] -= alpha * v.image.x[i];
             r.y[i] -= alpha * v.image.y[i];
         });
-        const double next =
-            sum_of(world, [&](int64_t i) { return v.diagonal[i] * (r.x[i] * r.x[i] + r.y[i] * r.y[i]); });
+        const auto weighted = [&](int64_t i) { return v.diagonal[i] * (r.x[i] * r.x[i] + r.y[i] * r.y[i]); };
+        const auto [next, next_left2] = sums_of(world, weighted, product(r, r));
         const double beta = next / rho;
         rho = next;
+        left2 = next_left2;
         for_each_particle(world, [&](int64_t i) {
             p.x[i] = v.diagonal[i] * r.x[i] + beta * p.x[i];
             p.y[i] = v.diagonal[i] * r.y[i] + beta * p.y[i];
@@ -145,28 +180,24 @@ void find_stiffness(World &world) {
 struct Slope {
     double hidden, hidden_change;
 
-    static double walls_at(const World &world, double part) {
+    double at(World &world, double part) const {
         const ViscousSystem &v = world.viscous;
-        double sum = 0;
-        for (std::size_t c = 0; c < v.wall_laws.size(); ++c) {
+        BinnedSum sum = part_of_sum(world, [&](int64_t i) {
+            const double dx = v.change.x[i], dy = v.change.y[i];
+            const double ex = v.rate_change.x[i], ey = v.rate_change.y[i];
+            const Deviator e{v.rate.x[i] + part * ex, v.rate.y[i] + part * ey};
+            const double eta = law_of(world, i).viscosity(equivalent_stress(e), v.pressure[i]);
+            return inertia(world, i) * ((v.velocity.x[i] - v.target.x[i] + part * dx) * dx +
+                                        (v.velocity.y[i] - v.target.y[i] + part * dy) * dy) +
+                   2.0 * eta * (e.xx * ex + e.xy * ey);
+        });
+        add_contacts(world, sum, [&](int64_t c) {
             const WallLaw &wall = v.wall_laws[c];
             const double g = v.wall_rate[c] + part * v.wall_change[c];
-            sum += wall.share * wall.lever * wall.law.viscosity(std::abs(g), wall.pressure) * g * v.wall_change[c];
-        }
-        return sum;
-    }
-
-    double at(World &world, double part) const {
-        ViscousSystem &v = world.viscous;
-        return hidden + part * hidden_change + walls_at(world, part) + sum_of(world, [&](int64_t i) {
-                   const double dx = v.change.x[i], dy = v.change.y[i];
-                   const double ex = v.rate_change.x[i], ey = v.rate_change.y[i];
-                   const Deviator e{v.rate.x[i] + part * ex, v.rate.y[i] + part * ey};
-                   const double eta = law_of(world, i).viscosity(equivalent_stress(e), v.pressure[i]);
-                   return inertia(world, i) * ((v.velocity.x[i] - v.target.x[i] + part * dx) * dx +
-                                               (v.velocity.y[i] - v.target.y[i] + part * dy) * dy) +
-                          2.0 * eta * (e.xx * ex + e.xy * ey);
-               });
+            return wall.share * wall.lever * wall.law.viscosity(std::abs(g), wall.pressure) * g * v.wall_change[c];
+        });
+        double none = 0;
+        return hidden + part * hidden_change + values_of_all<1>(world, {sum}, none)[0];
     }
 };
 
@@ -212,13 +243,12 @@ struct Misfit {
 
 // Leaves the forces of the admissible part of the stress, and what they leave of the momentum in residual.
 Misfit measure_misfit(World &world, double force_scale) {
-    const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     const double delta = world.scene->config().delta;
     double fastest2 = 0;
-    for (int64_t i = 0; i < p.count; ++i)
+    for (int64_t i = 0; i < world.particles.count; ++i)
         fastest2 = std::max(fastest2, v.velocity.x[i] * v.velocity.x[i] + v.velocity.y[i] * v.velocity.y[i]);
-    const double mismatch2 = sum_of(world, [&](int64_t i) {
+    BinnedSum mismatch = part_of_sum(world, [&](int64_t i) {
         const Deviator e{v.rate.x[i], v.rate.y[i]};
         const double rate = equivalent_stress(e), most = take_admissible_stress(world, i, rate);
         if (most == 0)
@@ -227,27 +257,30 @@ Misfit measure_misfit(World &world, double force_scale) {
         const double dx = e.xx - ratio * v.stress.x[i], dy = e.xy - ratio * v.stress.y[i];
         return dx * dx + dy * dy;
     });
-    double walls2 = 0;
-    for (std::size_t c = 0; c < v.wall_laws.size(); ++c) {
+    add_contacts(world, mismatch, [&](int64_t c) {
         const WallLaw &wall = v.wall_laws[c];
         const double g = v.wall_rate[c], most = wall.law.yield(std::abs(g), wall.pressure).stress;
         v.wall_stress[c] = std::clamp(v.wall_stress[c], -most, most);
         const double off = most > 0 ? g - std::hypot(g, wall.law.delta) / most * v.wall_stress[c] : 0.0;
-        walls2 += off * off;
-    }
-    const double rate2 = dot(world, v.rate, v.rate);
+        return off * off;
+    });
     viscous_forces(world, v.stress, v.velocity, v.force);
     add_wall_tractions(world, v.wall_stress, v.force);
     momentum_residual(world);
-    const double n = static_cast<double>(p.count);
+    const auto [mismatch2, rate2, force2, residual2] = values_of_all<4>(
+        world,
+        {mismatch, part_of_sum(world, product(v.rate, v.rate)), part_of_sum(world, product(v.force, v.force)),
+         part_of_sum(world, product(v.residual, v.residual))},
+        fastest2);
+    const double n = number_of_particles(world);
     const double tolerance = world.scene->config().implicit_tolerance;
-    const double forces = std::sqrt(dot(world, v.force, v.force) / n) + force_scale;
+    const double forces = std::sqrt(force2 / n) + force_scale;
     // Material that moves without forces has some of the size of what is rounded off.
     const double rounded = 16 * std::numeric_limits<double>::epsilon() * std::sqrt(fastest2);
-    const double counted = forces + rounded * inertia(world, 0) / tolerance;
+    const double mean_inertia = world.mass / (n * world.particles.volume * world.clock.dt);
+    const double counted = forces + rounded * mean_inertia / tolerance;
     const double allowed = std::sqrt(tolerance) * (std::sqrt(rate2 / n) + delta) + rounded / world.constants.spacing;
-    return {counted > 0 ? std::sqrt(dot(world, v.residual, v.residual) / n) / counted : 0.0,
-            std::sqrt((mismatch2 + walls2) / n) / allowed};
+    return {counted > 0 ? std::sqrt(residual2 / n) / counted : 0.0, std::sqrt(mismatch2 / n) / allowed};
 }
 
 // Velocity and stress before the step: at rest these are the solution already.
@@ -268,7 +301,7 @@ void solve(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     const gp_config &config = world.scene->config();
-    const double n = static_cast<double>(p.count);
+    const double n = number_of_particles(world);
     // The forces that the law has to balance: all others.
     const double force_scale = std::sqrt(sum_of(world,
                                                 [&](int64_t i) {
@@ -382,8 +415,9 @@ void viscous_solve(World &world) {
         contact.power += power;
         plate_power += p.volume * power;
     }
-    world.sums.front().total_power += plate_power;
-    const double work = p.volume * dot(world, v.velocity, v.force);
+    if (!world.walls.contacts.empty())
+        world.sums.front().total_power += plate_power;
+    const double work = p.volume * part_of_sum(world, product(v.velocity, v.force)).value();
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         double plastic = 0, lost = 0;
         for (int64_t i = begin; i < end; ++i) {
@@ -407,6 +441,7 @@ void viscous_solve(World &world) {
     world.ledger.penalty += dt * (plate_power - work - friction) - plastic;
     world.ledger.walls += dt * friction;
     world.ledger.dissipated += dt * plate_power + lost - plastic; // s : D joins in account
+    world.images.copy({&p.sxx, &p.sxy});
 }
 
 } // namespace gp::stages

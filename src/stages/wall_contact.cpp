@@ -96,7 +96,7 @@ void hold(World &world, Contact &contact, const Vector &ahead) {
 } // namespace
 
 void wall_support(World &world) {
-    if (world.walls.contacts.empty())
+    if (world.walls.contacts.empty() && !world.crossing) // where there are others, they may have some, and wait
         return;
     viscous_forecast(world);
     const VectorField &force = world.viscous.force;

@@ -1,20 +1,25 @@
 #!/usr/bin/env python3
 """What compiled programs rely on: the header, the exported names, the layout of the structs.
 
-usage: abi_test.py CHECK --header GP_H --library LIBRARY [--work DIRECTORY] [--cc CC] [--cxx CXX] [--flags FLAGS]
+usage: abi_test.py CHECK --header GP_H [GP_MPI_H] --library LIBRARY [--work DIRECTORY] [--cc CC] [--cxx CXX] [--flags FLAGS]
                    [--pinned FILE [--update]] [--static LIBRARY --static-flags FLAGS] [--source DIRECTORY --source-flags FLAGS]
+                   [--older DIRECTORY]
 
 CHECK is one of
   header   the header compiles alone in every language it is for, without a warning
   symbols  the library exports what the header declares and nothing else; its SONAME
   link     a C program that uses every declared function links and runs, with the shared library and, given --static, the static
+  older    what the header in the directory given by --older has is where it was, what is new lies behind it, and the program there,
+           compiled with that header, runs with the library
   layout   sizes, offsets and constants are those of the file given by --pinned (--update writes it)
   diff     abidiff finds no difference between the header and the dump given by --pinned (--update writes it), and, given
            --source, the code and the header
+Of the library for several processes, header, symbols and link are checked with both of its headers.
 Exits with 77 where a check does not apply.
 """
 
 import argparse
+import glob
 import os
 import re
 import shlex
@@ -36,9 +41,11 @@ def run(command, **options):
 
 
 class Header:
-    def __init__(self, path):
-        with open(path) as source:
-            text = re.sub(r"/\*.*?\*/", " ", source.read(), flags=re.S)
+    def __init__(self, paths):
+        text = ""
+        for path in paths:
+            with open(path) as source:
+                text += re.sub(r"/\*.*?\*/", " ", source.read(), flags=re.S)
         # (name, whole declaration) of every function
         self.functions = [(match.group(1), " ".join(match.group(0).split()))
                           for match in re.finditer(r"^GP_API\s[^;(]*?\b(gp_\w+)\s*\([^;]*\)\s*;", text, re.M)]
@@ -66,7 +73,7 @@ def write(arguments, name, text):
 
 
 def check_header(arguments, header):
-    text = '#include "%s"\n#include "%s"\n' % (arguments.header, arguments.header)
+    text = '#include "%s"\n' % arguments.header[-1] * 2
     strict = ["-pedantic-errors", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wundef", "-Werror", "-fsyntax-only"]
     c = write(arguments, "header.c", text + "int header_is_not_empty;\n")
     cxx = write(arguments, "header.cpp", text)
@@ -76,15 +83,15 @@ def check_header(arguments, header):
     checked = []
     for cc, cxx_compiler in compilers:
         for standard in ("c99", "c11", "c17"):
-            compile_header(cc + ["-std=" + standard, "-Wstrict-prototypes"] + strict + [c])
+            compile_header(cc + ["-std=" + standard, "-Wstrict-prototypes"] + strict + arguments.flags + [c])
         for standard in ("c++11", "c++14", "c++17", "c++20"):
-            compile_header(cxx_compiler + ["-std=" + standard, "-Wold-style-cast"] + strict + [cxx])
+            compile_header(cxx_compiler + ["-std=" + standard, "-Wold-style-cast"] + strict + arguments.flags + [cxx])
         checked.append(run(cc + ["--version"]).stdout.split("\n")[0])
     print("7 standards each:", "; ".join(checked))
     # Its macros keep to its own corner of the name space.
-    for line in run(arguments.cc + ["-std=c99", "-dM", "-E", c]).stdout.splitlines():
+    for line in run(arguments.cc + ["-std=c99", "-dM", "-E"] + arguments.flags + [c]).stdout.splitlines():
         name = line.split()[1].split("(")[0]
-        if name.lower().startswith(("gp", "granperi")) and not name.startswith(("GP_", "GRANPERI_GP_H", "gp_load")):
+        if name.lower().startswith(("gp", "granperi")) and not name.startswith(("GP_", "GRANPERI_GP_", "gp_load")):
             fail("the macro", name)
 
 
@@ -108,14 +115,14 @@ def check_symbols(arguments, header):
     print(len(exported), "exported names")
     dynamic = run(["readelf", "-d", arguments.library]).stdout
     soname = re.search(r"\(SONAME\).*\[(.*)\]", dynamic)
-    if not soname or soname.group(1) != "libgranperi.so.0":
+    if not soname or soname.group(1) != os.path.basename(arguments.library).split(".")[0] + ".so.0":
         fail("SONAME is", soname and soname.group(1))
     if re.search(r"\(TEXTREL\)", dynamic):
         fail("the code has to be relocated when it is loaded")
 
 
 def check_link(arguments, header):
-    text = '#include "%s"\n#include <stdio.h>\n' % arguments.header
+    text = '#include "%s"\n#include <stdio.h>\n' % arguments.header[-1]
     text += "typedef void (*function)(void);\n"
     text += "static const function functions[] = {\n"
     text += "".join("    (function)%s,\n" % name for name, _ in header.functions)
@@ -143,8 +150,9 @@ def check_link(arguments, header):
             fail("the program returned", result.returncode, result.stdout)
 
 
-def check_layout(arguments, header):
-    text = '#include "%s"\n#include <stdio.h>\n' % arguments.header
+def layout_of(arguments, path, header):
+    """Sizes, offsets and constants of a header, one a line; None where they are not those of 64 bits."""
+    text = '#include "%s"\n#include <stdio.h>\n' % path
     text += "#define SIZE(type) printf(#type \" size %u\\n\", (unsigned)sizeof(type))\n"
     text += "#define FIELD(type, field) printf(#type \".\" #field \" at %u size %u\\n\", "
     text += "(unsigned)offsetof(type, field), "
@@ -159,16 +167,22 @@ def check_layout(arguments, header):
     program = os.path.join(arguments.work, "layout")
     result = run(arguments.cc + ["-std=c99", source, "-o", program])
     if result.returncode != 0:
-        return fail(result.stdout)
+        fail(result.stdout)
+        return ""
     result = run([program])
     if result.returncode == 77:
         print("skipped: the layout is pinned for 64-bit systems")
         sys.exit(77)
-    found = result.stdout.splitlines()
+    return result.stdout
+
+
+def check_layout(arguments, header):
+    layout = layout_of(arguments, arguments.header[0], header)
     if arguments.update:
         with open(arguments.pinned, "w") as target:
-            target.write(result.stdout)
+            target.write(layout)
         return
+    found = layout.splitlines()
     with open(arguments.pinned) as source:
         pinned = source.read().splitlines()
     for line in pinned:
@@ -182,6 +196,32 @@ def check_layout(arguments, header):
         print("If this is meant, and no program is broken by it: abi_test.py layout --update")
 
 
+def check_older(arguments, header):
+    path = os.path.join(arguments.older, "granperi", "gp.h")
+    older = Header([path])
+    before, now = (layout_of(arguments, *which).splitlines() for which in ((path, older), (arguments.header[0], header)))
+    # Structs with a struct_size have grown, and there are more fields to or together.
+    grown = ["%s size" % name for name, fields in older.structs.items() if fields[0] == "struct_size"]
+    for line in before:
+        if line not in now and not line.startswith((*grown, "GP_FIELD_ALL ")):
+            fail("no longer so:", line)
+    # What a program of then leaves at the end of a struct is not a field of now: nobody has set it.
+    sizes = dict(re.findall(r"^(\w+) size (\d+)$", "\n".join(before), re.M))
+    for name, field, place in re.findall(r"^(\w+)\.(\w+) at (\d+)", "\n".join(now), re.M):
+        if name in older.structs and field not in older.structs[name] and int(place) < int(sizes[name]):
+            fail("%s.%s lies at %s: expected behind the %s bytes of then" % (name, field, place, sizes[name]))
+    program = os.path.join(arguments.work, "older")
+    result = run(arguments.cc + ["-std=c99", "-Wall", "-Wextra", "-Werror", "-I", arguments.older] + arguments.flags +
+                 [os.path.join(arguments.older, "program.c"), "-o", program, arguments.library,
+                  "-Wl,-rpath," + os.path.dirname(arguments.library)])
+    if result.returncode != 0:
+        return fail("link:", result.stdout)
+    result = run([program, arguments.work])
+    print(result.stdout, end="")
+    if result.returncode != 0:
+        fail("the program of then returned", result.returncode)
+
+
 SONAME = "-Wl,-soname,libgranperi.so.0"
 
 
@@ -191,7 +231,7 @@ def declared_library(arguments, header):
     for _, declaration in header.functions:
         text += declaration[len("GP_API "):-1] + " { __builtin_trap(); }\n"
     write(arguments, "declared.c", text)
-    include = os.path.dirname(os.path.dirname(arguments.header))
+    include = os.path.dirname(os.path.dirname(arguments.header[0]))
     # By relative names, for they are in the dump.
     result = run(arguments.cc + ["-std=c99", "-w", "-g", "-O0", "-shared", "-fPIC", "-I", include, SONAME, "declared.c", "-o",
                                  "libdeclared.so"], cwd=arguments.work)
@@ -207,7 +247,7 @@ def compiled_library(arguments):
     result = run(arguments.cxx + ["-std=c++17", "-w", "-g", "-O0", "-fPIC", "-shared", "-fvisibility=hidden", "-DGP_BUILDING",
                                   SONAME, "-I", source + "/src", "-I", source + "/include",
                                   "-Wl,--version-script=" + source + "/cmake/granperi.map"] + arguments.source_flags +
-                 [source + "/src/api.cpp", "-o", library])
+                 sorted(glob.glob(source + "/src/api*.cpp")) + ["-o", library])
     if result.returncode != 0:
         fail(result.stdout)
     return library
@@ -240,14 +280,15 @@ def check_diff(arguments, header):
 
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
-    parser.add_argument("check", choices=["header", "symbols", "link", "layout", "diff"])
-    parser.add_argument("--header", required=True, type=os.path.abspath)
+    parser.add_argument("check", choices=["header", "symbols", "link", "older", "layout", "diff"])
+    parser.add_argument("--header", required=True, nargs="+", type=os.path.abspath)
     parser.add_argument("--library", type=os.path.abspath)
     parser.add_argument("--work", type=os.path.abspath, help="kept; else a directory that goes again")
     parser.add_argument("--cc", default="cc", type=shlex.split)
     parser.add_argument("--cxx", default="c++", type=shlex.split)
     parser.add_argument("--flags", default="", type=shlex.split)
     parser.add_argument("--pinned")
+    parser.add_argument("--older", type=os.path.abspath)
     parser.add_argument("--static", type=os.path.abspath)
     parser.add_argument("--static-flags", default="", type=shlex.split)
     parser.add_argument("--source", type=os.path.abspath)
@@ -257,7 +298,7 @@ def main():
     scratch = tempfile.TemporaryDirectory()
     arguments.work = arguments.work or scratch.name
     os.makedirs(arguments.work, exist_ok=True)
-    {"header": check_header, "symbols": check_symbols, "link": check_link,
+    {"header": check_header, "symbols": check_symbols, "link": check_link, "older": check_older,
      "layout": check_layout, "diff": check_diff}[arguments.check](arguments, Header(arguments.header))
     return 1 if failures else 0
 

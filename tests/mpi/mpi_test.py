@@ -99,7 +99,8 @@ class Tests:
         return subprocess.Popen(self.command(ranks, *arguments), cwd=self.folder, env=ENVIRONMENT, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
-    def ranks_of(self, process):
+    @staticmethod
+    def ranks_of(process, program):
         """Of the program among the descendants of mpiexec."""
         children = {}
         for entry in pathlib.Path("/proc").iterdir():
@@ -114,7 +115,7 @@ class Tests:
             for child in children.get(left.pop(), []):
                 left.append(child)
                 try:
-                    if os.path.samefile(f"/proc/{child}/exe", self.options.program):
+                    if os.path.samefile(f"/proc/{child}/exe", program):
                         found.append(child)
                 except OSError:
                     continue
@@ -137,7 +138,7 @@ class Tests:
         self.must(1, self.options.restarts, "make", "gate", 0, "first.h5")
         process = self.start(2, program, "first.h5", "--end", 10, "--output", "f.h5", "--every", 0.005, "--save", "s.h5")
         self.wait_for_frames(process, "f.h5", 3)
-        ranks = self.ranks_of(process)
+        ranks = self.ranks_of(process, program)
         os.kill(ranks[-1], signal.SIGUSR1)
         _, errors = process.communicate(timeout=120)
         self.check(process.returncode == 75 and "stopped by a signal" in errors, "a signal to one process ends all")
@@ -145,21 +146,50 @@ class Tests:
         self.must(1, program, "first.h5", "--end", 0.06, "--save", "whole.h5")
         with h5py.File(self.folder / "f.h5") as file:
             self.check(len(file["particles/all/position/time"]) >= 12, "frames go on")
+        self.kill_writers(program)
+
+    def kill_writers(self, program):
+        """One process or all of them, at random moments, of a program that writes frames and of one that saves."""
+        restarts = self.options.restarts
+        self.must(1, program, "s.h5", "--end", 0.2, "--output", "all.h5", "--every", 0.002)
+        frames = self.frames_of("all.h5")
+        (self.folder / "saves").mkdir()
+        self.must(1, restarts, "saves", "s.h5", 3, "saves/")
         chooser = random.Random(20)
         for turn in range(self.options.kills):
-            (self.folder / "k.h5").unlink(missing_ok=True)
-            process = self.start(2, program, "s.h5", "--end", 10, "--output", "k.h5", "--every", 0.002)
-            self.wait_for_frames(process, "k.h5", 1 + turn % 4)
-            time.sleep(0.1 * chooser.random())
-            ranks = self.ranks_of(process)
-            for rank in ranks if turn % 2 else ranks[:1]:
-                os.kill(rank, signal.SIGKILL)
-            process.communicate(timeout=120)
-            whole = False
-            with h5py.File(self.folder / "k.h5") as file:
-                position = file["particles/all/position"]
-                whole = len(position["value"]) >= 1 and position["value"][...].size > 0
-            self.check(whole and process.returncode != 0, f"killed, {len(ranks)} processes")
+            for name in "k.h5", "c.h5":
+                (self.folder / name).unlink(missing_ok=True)
+            if turn % 2:
+                process = self.start(2 + turn // 4 % 2, program, "s.h5", "--end", 10, "--output", "k.h5", "--every", 0.002)
+                self.wait_for_frames(process, "k.h5", 1 + turn // 2 % 4)
+                ranks = self.kill_some(process, program, turn // 2 % 2, 0.1 * chooser.random())
+                found = self.frames_of("k.h5")
+                self.check(len(found) > 0 and found == frames[:len(found)],
+                           f"{len(found)} frames are whole after a kill of {ranks} processes")
+            else:
+                process = self.start(2 + turn // 4 % 2, restarts, "saves", "s.h5", 3, "c.h5")
+                while process.poll() is None and not (self.folder / "c.h5").exists():
+                    time.sleep(0.01)
+                ranks = self.kill_some(process, restarts, turn // 2 % 2, 0.3 * chooser.random())
+                result = self.run(1, restarts, "whole", "c.h5", "saves/")
+                self.check(result.returncode == 0, f"a checkpoint is whole after a kill of {ranks} processes", result)
+
+    def kill_some(self, process, program, everybody, after):
+        """Which it killed: one of them or all."""
+        time.sleep(after)
+        ranks = self.ranks_of(process, program)
+        chosen = ranks if everybody else [ranks[int(1000 * after) % len(ranks)]]
+        for rank in chosen:
+            os.kill(rank, signal.SIGKILL)
+        process.communicate(timeout=120)
+        self.check(process.returncode != 0, "mpiexec tells of it")
+        return f"{len(chosen)} of {len(ranks)}"
+
+    def frames_of(self, name):
+        with h5py.File(self.folder / name) as file:
+            position = file["particles/all/position"]
+            velocity = file["particles/all/velocity/value"]
+            return [(time, position["value"][k].tobytes(), velocity[k].tobytes()) for k, time in enumerate(position["time"])]
 
 
 def main():

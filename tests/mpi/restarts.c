@@ -3,7 +3,11 @@
  *   restarts make SCENE STEPS FILE     [on any number of processes] a scene from its beginning
  *   restarts go_on FILE STEPS FILE     another stretch, on any number
  *   restarts alone FILE STEPS FILE     the same by the functions for one process
- *   restarts compare FILE FILE         1 if the states differ */
+ *   restarts compare FILE FILE         1 if the states differ
+ *   restarts saves FILE STEPS FILE     on any number: from the first, saves every so many steps to the second, 40 times, and that
+ *                                      again and again until it is killed; to STEP.h5 in a directory, whose name ends with a /,
+ *                                      only once
+ *   restarts whole FILE DIRECTORY/     1 if the state is not that of the same step there */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,6 +80,35 @@ static int compare(const char *a, const char *b) {
     return different;
 }
 
+static void save_often(const char *from, long steps, const char *to) {
+    const size_t length = strlen(to);
+    const int once = length > 0 && to[length - 1] == '/';
+    do {
+        gp_sim *sim;
+        check(gp_load_mpi(from, MPI_COMM_WORLD, &sim));
+        for (int k = 0; k < 40; ++k) {
+            char path[1024];
+            int64_t step;
+            check(gp_step(sim, steps));
+            check(gp_get_clock(sim, NULL, NULL, &step));
+            snprintf(path, sizeof path, "%s%lld.h5", to, (long long)step);
+            check(gp_save(sim, once ? path : to));
+        }
+        gp_destroy(sim);
+    } while (!once);
+}
+
+static int whole(const char *file, const char *directory) {
+    char path[1024];
+    gp_sim *sim;
+    int64_t step;
+    check(gp_load(file, &sim));
+    check(gp_get_clock(sim, NULL, NULL, &step));
+    gp_destroy(sim);
+    snprintf(path, sizeof path, "%s%lld.h5", directory, (long long)step);
+    return compare(file, path);
+}
+
 int main(int argc, char **argv) {
     MPI_Init(&argc, &argv);
     int rank, result = 0;
@@ -83,6 +116,10 @@ int main(int argc, char **argv) {
     const char *mode = argc > 1 ? argv[1] : "";
     if (!strcmp(mode, "compare") && argc == 4) {
         result = compare(argv[2], argv[3]);
+    } else if (!strcmp(mode, "whole") && argc == 4) {
+        result = whole(argv[2], argv[3]);
+    } else if (!strcmp(mode, "saves") && argc == 5) {
+        save_often(argv[2], atol(argv[3]), argv[4]);
     } else if (argc == 5) {
         gp_sim *sim;
         if (!strcmp(mode, "make")) {

@@ -162,12 +162,20 @@ static void thrown(gp_sim *s) { add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -
 
 static void thrown_hard(gp_sim *s) { add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -6), floor_of(s, -1, 1); }
 
+/* The implicit scheme: its iterations go by sums over all. */
+static void implicit(gp_config *c) { c->spacing = 0.004, c->stress = GP_STRESS_IMPLICIT; }
+static void implicit_incline(gp_config *c) { incline(c), c->stress = GP_STRESS_IMPLICIT; }
+static void implicit_few(gp_config *c) { few(c), c->stress = GP_STRESS_IMPLICIT; }
+
 static const scene scenes[] = {
     {"collapse", fine, collapse, 400}, {"chute", incline, chute, 300},        {"box", coarse, box, 300},
     {"lifted", coarse, lifted, 300},   {"drum", coarse, drum, 300},           {"hopper", coarse, hopper, 300},
     {"two", coarse, two_materials, 300}, {"fluid", coarse, fluid, 300},       {"channel", channel, collapse, 300},
     {"fragments", coarse, fragments, 300}, {"handful", few, handful, 300},    {"within", coarse, wall_within, 300},
     {"thrown", blow, thrown, 200},        {"diverging", blow, thrown_hard, 200},
+    {"implicit", implicit, collapse, 60}, {"implicit_chute", implicit_incline, chute, 20}, {"implicit_box", implicit, box, 6},
+    {"implicit_drum", implicit, drum, 40}, {"implicit_two", implicit, two_materials, 6}, {"implicit_fragments", implicit, fragments, 40},
+    {"implicit_handful", implicit_few, handful, 60},
 };
 
 static gp_sim *make(const scene *s, int alone) {
@@ -249,6 +257,7 @@ static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
     EQUAL(momentum_x), EQUAL(momentum_y), EQUAL(max_speed), EQUAL(rms_speed), EQUAL(x_left), EQUAL(x_right);
     EQUAL(peak_x), EQUAL(peak_height), EQUAL(max_pressure), EQUAL(at_rest), EQUAL(collisions), EQUAL(retries);
     EQUAL(max_compression), EQUAL(x_q05), EQUAL(x_q50), EQUAL(detached), EQUAL(volume_drift);
+    EQUAL(implicit_newton), EQUAL(implicit_linear), EQUAL(implicit_last), EQUAL(implicit_failures), EQUAL(implicit_residual);
     CLOSE(dissipated), CLOSE(plate_work), CLOSE(wall_dissipated), CLOSE(bulk_dissipated), CLOSE(energy_error);
     compare_loads(s, alone, together);
 }

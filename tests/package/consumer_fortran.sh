@@ -39,7 +39,7 @@ expect_refusal() {
     cat >"$work/refused/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.20)
 project(refused LANGUAGES $3)
-find_package(granperi 0.1 REQUIRED COMPONENTS ${4:-fortran})
+find_package(granperi 0.2 REQUIRED COMPONENTS ${4:-fortran})
 END
     configure "$work/refused" "$1" && fail "find_package ought to have refused: $2"
     # CMake breaks lines of its messages.

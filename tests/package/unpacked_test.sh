@@ -1,5 +1,6 @@
 #!/bin/bash
-# Debian packages, unpacked beside the system: programs in C and Fortran are built against them, Python imports them.
+# Debian packages, unpacked beside the system: programs in C, for several processes and in Fortran are built against them, Python
+# imports them.
 #
 # usage: unpacked_test.sh ROOT WORK    with CMAKE, CC and FC in the environment
 set -u
@@ -11,12 +12,15 @@ consumer=$here/consumer consumer_fortran=$here/consumer_fortran features="hdf5=1
 . "$here/consumer.sh"
 # shellcheck source=tests/package/consumer_fortran.sh
 . "$here/consumer_fortran.sh"
+# shellcheck source=tests/package/consumer_mpi.sh
+. "$here/consumer_mpi.sh"
 libdir=lib/$("$CC" -print-multiarch)
 
 use_pkg_config "$prefix" "$libdir"
 use_cmake "$prefix"
 use_fortran_pkg_config "$prefix" "$libdir"
 use_fortran_cmake "$prefix"
+use_mpi "$prefix" "$libdir"
 said=$(cd "$work" && LD_LIBRARY_PATH=$prefix/$libdir PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -c "
 import granperi
 with granperi.Simulation(spacing=0.0025) as sim:

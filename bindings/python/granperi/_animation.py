@@ -56,8 +56,24 @@ def _shots(source: Any, name: str, t_end: float | None, every: float, progress: 
 
 def animate(source: Any, path: "str | os.PathLike[str]", name: str = "speed", t_end: float | None = None,
             every: float = 0.01, fps: int = 20, progress: bool = False) -> None:
-    """Writes an animation of a field to `path` (.mp4 or .gif): all frames of a result file, or a simulation that is run
-    to t_end [s] with a frame every `every` [s]. fps: pictures per second."""
+    """Writes an animation of a field: all frames of a result file, or of a simulation that is run for it.
+
+    Args:
+        source: a Result or its path, or a simulation.
+        path: a name that ends in .mp4, .mkv or .webm (needs ffmpeg), or .gif (needs Pillow).
+        name: of a field of Field, in small letters, or "speed", "shear_stress", "yielded".
+        t_end: s, of a simulation: the end of its run.
+        every: s, of a simulation: between two frames.
+        fps: pictures per second, at least 1.
+        progress: shows a bar (needs tqdm), of a simulation.
+
+    Raises:
+        ArgumentError: another end of the name, a program that is not installed, no t_end.
+        FileError: a file that is no result.
+
+    Example:
+        granperi.plot.animate("collapse.h5", "collapse.gif", "speed")
+    """
     path = os.fspath(path)
     if not (isinstance(fps, int) and 1 <= fps <= 120):
         raise ArgumentError(f"fps = {fps!r}: expected a whole number from 1 to 120")

@@ -1,7 +1,7 @@
 /* Written by bindings/generate from include/granperi/gp.h. Do not edit. */
 
 #define GP_VERSION_MAJOR 0
-#define GP_VERSION_MINOR 1
+#define GP_VERSION_MINOR 2
 #define GP_VERSION_PATCH 0
 
 typedef int32_t gp_status;
@@ -78,7 +78,7 @@ typedef struct gp_config {
     int32_t implicit_iterations;
     int32_t allow_unstable_step;
     int32_t retry_halvings;
-    int32_t sleep;
+    int64_t sleep;
 } gp_config;
 
 gp_status gp_config_init(gp_config *config, size_t size, int32_t preset);

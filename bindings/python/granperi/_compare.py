@@ -22,12 +22,28 @@ class Difference:
 
     @property
     def difference(self) -> float:
+        """second - first."""
         return self.second - self.first
 
 
 def compare(first: Any, second: Any, times: Any = None) -> list[Difference]:
-    """Peak, fronts, centre of mass, and the distance of particles of the same id, at the given times [s] (of result files)
-    or, without, at the last one. Sources: results, their paths, simulations or snapshots."""
+    """Peak, fronts, centre of mass, and the distance of particles of the same id, of two sources.
+
+    Args:
+        first, second: results, their paths, simulations or snapshots.
+        times: s, one or shape (n), of result files; not given: the last frame, or now.
+
+    Returns:
+        A list of Difference.
+
+    Raises:
+        ArgumentError: a time at which there is no frame, or of a simulation.
+        FileError: a file that is no result.
+
+    Example:
+        for row in granperi.compare("collapse.h5", "collapse.h5"):
+            print(row.name, row.difference)
+    """
     rows: list[Difference] = []
     for time in [None] if times is None else np.atleast_1d(times):
         rows += _at_one_time(snapshot(first, time), snapshot(second, time))

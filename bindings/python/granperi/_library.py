@@ -23,6 +23,15 @@ def text_of(pointer) -> str:
 
 
 def has_feature(name: str) -> bool:
-    """Whether the library was built with "hdf5" or "openmp", or runs with the instructions of "x86-64-v3" (AVX2), "x86-64" and so on
-    (gp_has_feature has them all); False for other names."""
+    """Whether the library has a feature.
+
+    Args:
+        name: "hdf5", "openmp", "mpi", or an instruction set: "x86-64-v3".
+
+    Returns:
+        True or False; False of an unknown name.
+
+    Example:
+        print(granperi.has_feature("hdf5"))
+    """
     return isinstance(name, str) and bool(lib.gp_has_feature(name.encode("utf-8", "replace").replace(b"\0", b"?")))

@@ -48,7 +48,14 @@ class Parameters:
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
-        """The names of all parameters, in the library's order."""
+        """The names of all parameters, in the library's order.
+
+        Returns:
+            A tuple of names.
+
+        Example:
+            print(granperi.Material.names())
+        """
         return tuple(cls._defaults())
 
     def _set(self, name: str, value: Any) -> None:
@@ -118,7 +125,20 @@ class Parameters:
         object.__setattr__(self, "_values", {**self._defaults(), **state})
 
     def replace(self, **values: Any):
-        """A copy with some values changed."""
+        """A copy with some values changed.
+
+        Args:
+            **values: parameters by keyword.
+
+        Returns:
+            The copy.
+
+        Raises:
+            ArgumentTypeError: a name that does not exist, or a value of the wrong type.
+
+        Example:
+            smooth = granperi.Plate.floor(-0.3, 0.3).replace(friction="free_slip")
+        """
         other = copy.deepcopy(self)
         for name, value in values.items():
             other._set(name, value)

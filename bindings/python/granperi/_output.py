@@ -41,23 +41,58 @@ class Output:
 
     @property
     def closed(self) -> bool:
+        """Whether the file is closed."""
         return self._sim is None or self._sim._output is not self
 
     def write(self) -> None:
-        """Writes a frame of the present state."""
+        """Writes a frame of the present state.
+
+        Raises:
+            StateError: the output is closed.
+            FileError: the file cannot be written, the disk is full.
+
+        Example:
+            with sim.output("by_hand.h5") as output:
+                output.write()
+        """
         with self._engine.locked("write") as engine:
             if self.closed:
                 raise StateError(f"write: the output {self.path} is closed: write before, or open another one")
             check(lib.gp_output_write(engine.sim))
 
     def write_each(self, states: Iterable[State]) -> Iterator[State]:
-        """Each state of Simulation.frames(), once its frame is written."""
+        """Each state of Simulation.frames(), once its frame is written.
+
+        Args:
+            states: an iterable of State.
+
+        Returns:
+            An iterator of State.
+
+        Raises:
+            StateError: the output is closed.
+            FileError: the file cannot be written, the disk is full.
+
+        Example:
+            with sim.output("each.h5") as output:
+                for state in output.write_each(sim.frames(0.02, every=0.01)):
+                    print(state.time)
+        """
         for state in states:
             self.write()
             yield state
 
     def close(self) -> None:
-        """Closes the file. Closing it twice does no harm."""
+        """Closes the file. Closing it twice does no harm.
+
+        Raises:
+            StateError: from inside the simulation's callback.
+            FileError: what is left cannot be written.
+
+        Example:
+            output = sim.output("by_hand.h5")
+            output.close()
+        """
         if self.closed or self._engine.closed:
             return
         with self._engine.locked("close"):

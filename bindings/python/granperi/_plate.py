@@ -62,15 +62,39 @@ class Plate(Parameters):
         self._set("points", value)
 
     def placed(self, dx: float, dy: float, angle: float = 0.0) -> np.ndarray:
-        """m, shape (n, 2): the line when the plate is displaced by dx, dy [m] and turned by angle [rad] about its pivot,
-        as Simulation.plate_load tells."""
+        """The line when the plate is displaced and turned about its pivot, as Simulation.plate_load tells.
+
+        Args:
+            dx, dy: displacement, m.
+            angle: turn, rad, counter-clockwise.
+
+        Returns:
+            m, shape (n, 2).
+
+        Example:
+            print(granperi.Plate.floor(0, 1).placed(0.0, 0.1))
+        """
         pivot = np.array([self.pivot_x, self.pivot_y])
         cosine, sine = math.cos(angle), math.sin(angle)
         turned = (self.points - pivot) @ np.array([[cosine, sine], [-sine, cosine]]) + pivot if angle else self.points
         return turned + np.array([dx, dy])
 
     def at(self, time: float) -> np.ndarray:
-        """m, shape (n, 2): the line at this time [s], as far as the motion is prescribed."""
+        """The line at a time, as far as the motion is prescribed.
+
+        Args:
+            time: s.
+
+        Returns:
+            m, shape (n, 2).
+
+        Example:
+            gate = granperi.Plate.gate(0.04, height=0.05, lift_time=0.1)
+            print(gate.at(0.1)[:, 1].min(), "m above the floor")
+
+        Restrictions:
+            What the host or a load moves is known to Simulation.plate_load only.
+        """
         if self.knot_t is None:
             return self.placed(self.vx * time, self.vy * time, self.omega * time)
         return self.placed(*(0.0 if values is None else float(np.interp(time, self.knot_t, values))
@@ -80,13 +104,44 @@ class Plate(Parameters):
 
     @classmethod
     def floor(cls, x_left: float, x_right: float, y: float = 0.0, **more: Any) -> "Plate":
-        """A floor at the height y [m] from x_left to x_right [m], material above it."""
+        """A level floor, material above it.
+
+        Args:
+            x_left, x_right: its ends, m, finite, in any order.
+            y: its height, m, finite.
+            **more: other parameters of Plate, such as friction.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentTypeError: a name that does not exist, or a value that is no number.
+
+        Example:
+            sim.add_plate(granperi.Plate.floor(-1, 1, y=-0.2, friction="coulomb", wall_mu=0.3))
+        """
         left, right = sorted((number("x_left", x_left), number("x_right", x_right)))
         return cls(**{"x0": right, "y0": y, "x1": left, "y1": y, **more})
 
     @classmethod
     def wall(cls, x: float, y_bottom: float, y_top: float, material: str = "right", **more: Any) -> "Plate":
-        """An upright wall at x [m] with the material on its "left" or "right"."""
+        """An upright wall.
+
+        Args:
+            x: its place, m, finite.
+            y_bottom, y_top: its ends, m, finite, in any order.
+            material: "left" or "right", the side on which it is.
+            **more: other parameters of Plate, such as friction.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentTypeError: another material, a name that does not exist, or a value that is no number.
+
+        Example:
+            sim.add_plate(granperi.Plate.wall(0.06, 0.0, 0.1, "left", friction="free_slip"))
+        """
         if not isinstance(material, str) or material not in ("left", "right"):
             raise ArgumentTypeError(f"material = {material!r}: expected 'left' or 'right', the wetted side of the wall")
         ends = sorted((number("y_bottom", y_bottom), number("y_top", y_top)), reverse=material == "left")
@@ -97,7 +152,25 @@ class Plate(Parameters):
              **more: Any) -> "Plate":
         """A smooth upright gate on the floor y = 0 that is lifted with uniform acceleration.
 
-        It clears the height [m] of its column within lift_time [s], and goes on until it is six spacings [m] above it.
+        It clears the height of its column within lift_time, and goes on until it is six spacings above it.
+
+        Args:
+            x: its place, m, finite.
+            height: of the column that it holds, m, finite, above 0.
+            lift_time: s, finite, above 0.
+            material: "left" or "right", the side on which it is.
+            spacing: of the simulation, m, finite, above 0.
+            **more: other parameters of Plate, such as friction.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentError: height, lift_time or spacing not above 0.
+            ArgumentTypeError: another material, or a value that is no number.
+
+        Example:
+            sim.add_plate(granperi.Plate.gate(0.05, height=0.05, lift_time=0.1, material="left", spacing=0.01))
         """
         values = {"height": height, "lift_time": lift_time, "spacing": spacing}
         height, lift_time, spacing = (number(name, value) for name, value in values.items())
@@ -112,11 +185,27 @@ class Plate(Parameters):
 
     @classmethod
     def line(cls, points: Any, closed: bool = False, material: str = "right", **more: Any) -> "Plate":
-        """A line through points [m], shape (n, 2). closed: on to the first point again, if the last is not that already.
+        """A line of any shape through points.
 
-        material: the side on which it is, "right" or "left" of the way (a profile of terrain from left to right has it on
-        the left), of a closed line "inside" or "outside". The plate's own way has it on its right, so it may be the other
-        one round: surface_velocity goes by the plate's.
+        The plate's own way has the material on its right, so it may be the other one round than the points: surface_velocity
+        goes by the plate's.
+
+        Args:
+            points: m, shape (n, 2), n at least 2, finite.
+            closed: on to the first point again, if the last is not that already.
+            material: the side on which it is, "right" or "left" of the way (a profile of terrain from left to right has it on
+                the left), of a closed line "inside" or "outside".
+            **more: other parameters of Plate, such as friction or omega.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentTypeError: points of another shape, another material.
+            ArgumentError: "inside" or "outside" of a line that is not closed.
+
+        Example:
+            slope = granperi.Plate.line([[-0.5, 0.3], [0.0, 0.0], [0.5, 0.0]], material="left")
         """
         x, y = points_of("points", points)
         if closed and len(x) and (x[0] != x[-1] or y[0] != y[-1]):

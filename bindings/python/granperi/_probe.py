@@ -124,11 +124,37 @@ class Probe:
                 *(f"{part}_{plate}" for plate in self.plates for part in LOADS)]
 
     def to_csv(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
-        """Writes the table as CSV; FileError if the file exists and overwrite is false."""
+        """Writes the table as CSV.
+
+        Args:
+            path: of the file.
+            overwrite: replaces a file that exists.
+
+        Raises:
+            FileError: the file exists, and overwrite is false; or it cannot be written.
+
+        Example:
+            probe = sim.add_probe(plates=[0], every=0.005)
+            sim.run(0.02)
+            probe.to_csv("floor.csv", overwrite=True)
+        """
         write_csv(path, self.names, self._rows, overwrite)
 
     def read_csv(self, path: "str | os.PathLike[str]") -> None:
-        """Goes on with the samples up to the simulation's time that to_csv() has written."""
+        """Goes on with the samples up to the simulation's time that to_csv() has written.
+
+        Args:
+            path: of the file.
+
+        Raises:
+            FileError: it cannot be read, or has other columns.
+
+        Example:
+            probe = sim.add_probe(plates=[0], every=0.005)
+            sim.run(0.02)
+            probe.to_csv("floor.csv", overwrite=True)
+            probe.read_csv("floor.csv")
+        """
         sim = self._sim()
         assert sim is not None
         try:
@@ -143,7 +169,13 @@ class Probe:
             self._timer.skip(self._rows[-1][0] + 1e-9 * sim.clock.dt)
 
     def remove(self) -> None:
-        """No more samples; those that there are stay."""
+        """No more samples; those that there are stay.
+
+        Example:
+            probe = sim.add_probe(plates=[0], every=0.005)
+            sim.run(0.02)
+            probe.remove()
+        """
         sim = self._sim()
         if sim is not None and self._timer in sim._engine.timers:
             sim._engine.timers.remove(self._timer)

@@ -149,23 +149,37 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
            of: Sequence[str] | None = None, workers: int = 1, progress: bool = False) -> Report:
     """Error against run time of one's own scene: what each spacing errs by and costs, and which one is enough.
 
-        report = granperi.report("collapse.toml", budget=60, accuracy=0.05)
+    Runs the scene at three or four spacings, several times each, within a budget. The runs of one spacing begin with particles
+    0.01 spacings beside each other's (or by the scene's own jitter): what they differ by is chance. From the means follow the
+    observed order and the limit of zero spacing, and from both the error of one run, which holds in 9 of 10 cases
+    (docs/report.md). What does not converge is said to.
+
+    Args:
+        scene: a Scene, or the path of a scene file.
+        budget: s of wall-clock time, finite, above 0.
+        accuracy: relative error of one run or of the mean of a few, above 0 and below 1, for which Report.recommendation names
+            spacing, number of runs and cost.
+        end: s, of the runs, finite, above 0; not given: that of the scene.
+        spacings: m, at least three; not given: as fine as the budget allows, down to half of the scene's spacing, so that the
+            columns' sides are whole numbers of them as far as possible.
+        seeds: runs of each spacing, 2 to 100.
+        quantities: more of them, {"name": function of the Simulation at its end}.
+        of: the quantities that the accuracy is about; not given: peak_height and width_90.
+        workers: runs beside each other, 1 to 64.
+        progress: shows a bar (needs tqdm).
+
+    Returns:
+        The Report.
+
+    Raises:
+        ArgumentError: a budget in which not two runs at each of three spacings are possible, a value out of range, a quantity
+            that does not exist; a scene with particles given one by one, whose spacing is theirs.
+        SceneError: what the library refuses of the scene.
+
+    Example:
+        report = granperi.report("collapse.toml", budget=20, accuracy=0.1)
         print(report)
-        report.write("collapse.html")  # one page with pictures, or .json
-
-    Runs the scene at three or four spacings, several times each, within `budget` [s of wall-clock time]. The runs of one
-    spacing begin with particles 0.01 spacings beside each other's (or by the scene's own jitter): what they differ by is chance.
-    From the means follow the observed order and the limit of zero spacing, and from both the error of one run, which holds in 9
-    of 10 cases (docs/report.md). What does not converge is said to.
-
-    accuracy: relative error of one run or of the mean of a few, for which Report.recommendation names spacing, number of runs
-    and cost; of: the quantities that it is about ["peak_height", "width_90"]. end [s]: of the runs [that of the scene].
-    spacings [m]: at least three [as fine as the budget allows, down to half of the scene's spacing, so that the columns' sides
-    are whole numbers of them as far as possible]. seeds: runs of each spacing, 2 to 100. quantities: more of them, {"name":
-    function of the Simulation at its end}. workers: runs beside each other, 1 to 64. progress: a bar (tqdm).
-
-    ArgumentError: a budget in which not two runs at each of three spacings are possible; a scene with particles given one by
-    one, whose spacing is theirs.
+        report.write("collapse.html", overwrite=True)  # one page with pictures, or .json
     """
     scene = scene_of(scene)
     end = scene.run.end if end is None else number("end", end)

@@ -51,7 +51,22 @@ class Recommendation:
     reason: str
 
     def config(self, config: Config) -> Config:
-        """`config` with the recommended spacing. StateError: nothing is recommended."""
+        """A configuration with the recommended spacing.
+
+        Args:
+            config: whose other values stay.
+
+        Returns:
+            A Config.
+
+        Raises:
+            StateError: nothing is recommended; reason says why.
+
+        Example:
+            scene = granperi.Scene.read("collapse.toml")
+            if report.recommendation.runs:
+                scene.config = report.recommendation.config(scene.config)
+        """
         if not self.runs:
             raise StateError(f"nothing is recommended: {self.reason}")
         return config.replace(spacing=self.spacing)
@@ -107,7 +122,22 @@ class Report:
         return value
 
     def error(self, name: str, spacing: float, runs: int = 1) -> float:
-        """Relative error [1] of the mean of so many runs at any spacing [m], as large as it is in one of ten cases."""
+        """Relative error of the mean of so many runs at any spacing, as large as it is in one of ten cases.
+
+        Args:
+            name: of a quantity in convergence, such as "peak_height" or "width_90".
+            spacing: m, above 0.
+            runs: number of runs, at least 1.
+
+        Returns:
+            A share (0.05 is 5 %); NaN where there is nothing that it is relative to.
+
+        Raises:
+            ArgumentError: a quantity that the report has not.
+
+        Example:
+            print(report.error("width_90", report.spacings[0]))
+        """
         if name not in self.convergence:
             raise ArgumentError(f"name = {name!r}: {near_match(name, list(self.convergence))}")
         scale = self.scale[name]
@@ -121,8 +151,23 @@ class Report:
                    {name: one.error(spacing) for name, one in self.convergence.items()})
 
     def recommend(self, accuracy: float, of: Sequence[str] = ASKED) -> Recommendation:
-        """The cheapest spacing and number of runs by which these quantities err by less than `accuracy` (relative) in 9 of 10
-        cases: from the coarsest spacing that was run to a fourth of the finest one."""
+        """The cheapest spacing and number of runs by which these quantities err by less than an accuracy in 9 of 10 cases.
+
+        It looks from the coarsest spacing that was run to a fourth of the finest one.
+
+        Args:
+            accuracy: relative, above 0 and below 1.
+            of: names of quantities in convergence.
+
+        Returns:
+            A Recommendation; its runs are 0 where nothing does, and reason says why.
+
+        Raises:
+            ArgumentError: an accuracy outside its range.
+
+        Example:
+            print(report.recommend(0.2, of=["peak_height"]))
+        """
         accuracy = number("accuracy", accuracy)
         if not 0 < accuracy < 1:
             raise ArgumentError(f"accuracy = {accuracy:g}: expected a number above 0 and below 1")
@@ -167,7 +212,14 @@ class Report:
         return ", ".join(said)
 
     def advice(self) -> list[str]:
-        """What else saves time in this scene."""
+        """What else saves time in this scene.
+
+        Returns:
+            A list of sentences, which may be empty.
+
+        Example:
+            print(report.advice())
+        """
         said = []
         share = self.cost.share_to_rest
         if math.isfinite(share) and share < 0.9:
@@ -211,7 +263,14 @@ class Report:
     # --------------------------------------------------------------------------------------------- writing
 
     def data(self) -> dict[str, Any]:
-        """All of it as numbers, texts, lists and dicts, as in the JSON file; what is not there is None."""
+        """All of it as numbers, texts, lists and dicts, as in the JSON file; what is not there is None.
+
+        Returns:
+            A dict.
+
+        Example:
+            print(report.data()["spacings"])
+        """
         quantities = {}
         for name in (*MAIN, *self.own, *MARKS.values()):
             unit, meaning = QUANTITIES[name][:2] if name in QUANTITIES else OTHERS.get(name, ("", "the host's own"))
@@ -238,7 +297,14 @@ class Report:
             "runs": [dataclasses.asdict(run) for run in self.runs]})
 
     def html(self) -> str:
-        """One page with pictures, which needs nothing beside it."""
+        """One page with pictures, which needs nothing beside it.
+
+        Returns:
+            HTML.
+
+        Example:
+            print(len(report.html()), "characters")
+        """
         from ._report_html import page
 
         return page(self)
@@ -249,8 +315,19 @@ class Report:
         return body(self)
 
     def write(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
-        """Writes the report to a name that ends in .html or .json; beside its place first, then renamed. FileError: it is there,
-        and overwrite is false."""
+        """Writes the report; beside its place first, then renamed.
+
+        Args:
+            path: a name that ends in .html or .json.
+            overwrite: replaces a file that exists.
+
+        Raises:
+            ArgumentError: another end of the name.
+            FileError: it is there, and overwrite is false; or it cannot be written.
+
+        Example:
+            report.write("collapse.json", overwrite=True)
+        """
         path = os.fspath(path)
         if path.endswith(".html"):
             text = self.html()

@@ -29,7 +29,21 @@ class Snapshot:
     spacing: float
 
     def field(self, name: str) -> np.ndarray:
-        """A field of shape (n), or what follows from fields: "speed" [m/s], "shear_stress" [Pa], "yielded" (bool)."""
+        """A field of the particles at that instant, in the order of id.
+
+        Args:
+            name: of a field of Field, in small letters, or "speed" (m/s), "shear_stress" (Pa), "yielded" (bool).
+
+        Returns:
+            An array of shape (n). Units: those of Field.
+
+        Raises:
+            ArgumentError: a name that does not exist, or a field that the file has not.
+
+        Example:
+            with granperi.Result("collapse.h5") as result:
+                print(result[-1].field("pressure").max(), "Pa")
+        """
         if name in DERIVED:
             return derived(name, self._read, self._friction_of_columns)
         if name not in FIELD_NAMES:
@@ -57,7 +71,15 @@ class Snapshot:
         raise NotImplementedError
 
     def plate_lines(self) -> list[np.ndarray]:
-        """The line of each plate where it is now, as far as that is known: m, shape (number of its points, 2)."""
+        """The line of each plate where it is now, as far as that is known.
+
+        Returns:
+            A list of arrays, m, shape (number of its points, 2).
+
+        Example:
+            with granperi.Result("collapse.h5") as result:
+                print(result[-1].plate_lines()[0])
+        """
         raise NotImplementedError
 
     @property
@@ -66,11 +88,38 @@ class Snapshot:
         raise NotImplementedError
 
     def surface(self, x) -> np.ndarray:
-        """Heights [m] of the free surface at x [m]; 0 outside the fronts."""
+        """Heights of the free surface.
+
+        Args:
+            x: stations, m, shape (n), finite.
+
+        Returns:
+            m, shape (n); 0 outside the fronts.
+
+        Raises:
+            ArgumentTypeError: another shape than (n).
+            ArgumentError: a value that is not finite.
+
+        Example:
+            with granperi.Result("collapse.h5") as result:
+                print(result[-1].surface([0.0, 0.02]))
+        """
         return self._shape().surface(x)
 
     def interface(self, left: int, right: int, y) -> np.ndarray:
-        """Positions x [m] of the interface of two columns at y [m]; NaN where they do not touch."""
+        """Positions of the interface of two columns.
+
+        Args:
+            left, right: numbers of two columns or sets of particles.
+            y: heights, m, shape (n), finite.
+
+        Returns:
+            x in m, shape (n); NaN where they do not touch.
+
+        Raises:
+            ArgumentError: a column that does not exist, or twice the same.
+            ArgumentTypeError: another shape than (n).
+        """
         return self._shape().interface(left, right, y)
 
 
@@ -172,6 +221,12 @@ class Result:
         return [Plate(**values) for values in self.scene["plates"]]
 
     def close(self) -> None:
+        """Closes the file; closing it twice does no harm.
+
+        Example:
+            result = granperi.Result("collapse.h5")
+            result.close()
+        """
         if self._file is not None:
             self._file.close()
             self._file = None
@@ -200,7 +255,21 @@ class Result:
         return (self[k] for k in range(len(self)))
 
     def at(self, time: float) -> FileSnapshot:
-        """The frame nearest to this time [s]; an error if there is none within the usual distance of two frames."""
+        """The frame nearest to a time.
+
+        Args:
+            time: s.
+
+        Returns:
+            The Snapshot of that frame.
+
+        Raises:
+            ArgumentError: there is no frame within the usual distance of two frames.
+
+        Example:
+            with granperi.Result("collapse.h5") as result:
+                print(result.at(0.02).field("speed").max(), "m/s")
+        """
         if not len(self):
             return self[0]  # which says why there is none
         frame = int(np.argmin(np.abs(self.times - time)))
@@ -210,7 +279,18 @@ class Result:
         return self[frame]
 
     def has(self, name: str) -> bool:
-        """Whether the file has this field."""
+        """Whether the file has a field.
+
+        Args:
+            name: of a field of Field, in small letters.
+
+        Returns:
+            True or False.
+
+        Example:
+            with granperi.Result("collapse.h5") as result:
+                print(result.has("viscosity"))
+        """
         return _VECTORS.get(name, (name,))[0] in self._particles
 
     @property
@@ -235,12 +315,19 @@ class Result:
         return History(self._state(frame) for frame in range(len(self)))
 
     def universe(self) -> Any:
-        """An MDAnalysis.Universe of the particles and all frames, in m, m/s and s; resid is the column. It reads from this file
-        as long as that is open.
+        """An MDAnalysis.Universe of the particles and all frames, in m, m/s and s; resid is the column.
 
-            u = granperi.Result("collapse.h5").universe()
-            for at in u.trajectory:
-                print(at.time, u.select_atoms("prop y > 0.03").n_atoms)
+        Returns:
+            The Universe, which reads from this file as long as that is open.
+
+        Raises:
+            ImportError: no MDAnalysis.
+            StateError: the file is closed.
+
+        Example:
+            with granperi.Result("collapse.h5") as result:
+                for at in result.universe().trajectory:
+                    print(at.time)
         """
         try:
             from ._mdanalysis import universe

@@ -54,8 +54,21 @@ class Scene:
         self._config_line = ""
 
     def add(self, kind: str, **values: Any) -> None:
-        """Adds a table as in a scene file: "material", "column", "particles", "polygon", "mask", "plate", "floor", "wall",
-        "gate", "wall_line" or "probe"."""
+        """Adds a table as in a scene file.
+
+        Args:
+            kind: "material", "column", "particles", "polygon", "mask", "plate", "floor", "wall", "gate", "wall_line" or
+                "probe".
+            **values: the keys of that table; units and ranges as in the call of that name.
+
+        Raises:
+            SceneError: a kind or a key that does not exist. Values are checked by build().
+
+        Example:
+            scene = granperi.Scene(granperi.Config(spacing=0.01))
+            scene.add("column", width=0.1, height=0.05)
+            scene.add("floor", x_left=-0.3, x_right=0.4)
+        """
         number_of_kind = 1 + sum(part.kind == kind for part in self._parts)
         self._add(_Part(kind, values, self.name, "", f"{kind} {number_of_kind}"), lambda key: "")
 
@@ -71,7 +84,21 @@ class Scene:
 
     @classmethod
     def read(cls, path: "str | os.PathLike[str]") -> "Scene":
-        """Reads a scene file (TOML). What is unknown or of the wrong type is a SceneError with its line."""
+        """Reads a scene file (TOML).
+
+        Args:
+            path: of the file.
+
+        Returns:
+            The Scene.
+
+        Raises:
+            SceneError: it cannot be read; what is unknown or of the wrong type, with its line.
+
+        Example:
+            scene = granperi.Scene.read("collapse.toml")
+            print(scene)
+        """
         path = os.fspath(path)
         try:
             with open(path, "rb") as file:
@@ -84,7 +111,21 @@ class Scene:
 
     @classmethod
     def parse(cls, text: str, name: str = "scene") -> "Scene":
-        """A scene from the text of a scene file."""
+        r"""A scene from the text of a scene file.
+
+        Args:
+            text: TOML.
+            name: what messages call it; files in it are beside this.
+
+        Returns:
+            The Scene.
+
+        Raises:
+            SceneError: what is unknown or of the wrong type, with its line.
+
+        Example:
+            scene = granperi.Scene.parse("[[column]]\nwidth = 0.1\nheight = 0.05\n")
+        """
         try:
             tables = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
@@ -128,7 +169,21 @@ class Scene:
     # ----------------------------------------------------------------------------------------------- building
 
     def build(self, spacing: float | None = None) -> Simulation:
-        """A simulation of the scene, at its own spacing or at another one [m]."""
+        """A simulation of the scene.
+
+        Args:
+            spacing: m; not given: the scene's own.
+
+        Returns:
+            A Simulation at its start.
+
+        Raises:
+            SceneError: what the library refuses, with file, line and table.
+
+        Example:
+            with granperi.Scene.read("collapse.toml").build(spacing=0.01) as coarse:
+                print(coarse.n_particles, "particles")
+        """
         config = self.config if spacing is None else self.config.replace(spacing=spacing)
         try:
             sim = Simulation(config)
@@ -150,8 +205,17 @@ class Scene:
         return any(part.kind == "particles" for part in self._parts)
 
     def smallest_side(self) -> float:
-        """The smallest width or height [m] of the scene's columns. ArgumentError: it has none, or particles given one by one,
-        whose spacing is theirs."""
+        """The smallest width or height of the scene's columns.
+
+        Returns:
+            m.
+
+        Raises:
+            ArgumentError: it has no column, or particles given one by one, whose spacing is theirs.
+
+        Example:
+            print(granperi.Scene.read("collapse.toml").smallest_side(), "m")
+        """
         if self.fixed_spacing:
             raise ArgumentError(f"{self.name}: has particles given one by one, whose spacing is theirs: expected a scene of "
                                 "columns, or a length in m")
@@ -162,7 +226,17 @@ class Scene:
         return min(sides)
 
     def column_sides(self) -> list[float]:
-        """Width and height [m] of each of the scene's columns."""
+        """Width and height of each of the scene's columns.
+
+        Returns:
+            m, a list of twice as many lengths as there are columns.
+
+        Raises:
+            SceneError: a side that is no finite number above 0.
+
+        Example:
+            print(granperi.Scene.read("collapse.toml").column_sides())
+        """
         return [self._side(part, key) for part in self._parts if part.kind == "column" for key in ("width", "height")]
 
     @staticmethod
@@ -181,11 +255,33 @@ class Scene:
         return [part for part in self._parts if part.kind == "probe"]
 
     def has_probes(self) -> bool:
-        """Whether it names time series to be recorded."""
+        """Whether it names time series to be recorded.
+
+        Returns:
+            True or False.
+
+        Example:
+            print(granperi.Scene.read("collapse.toml").has_probes())
+        """
         return bool(self._probes())
 
     def add_probes(self, sim: Simulation) -> list[Probe]:
-        """The probes of the scene, in a simulation of it; see Simulation.add_probe."""
+        """The probes of the scene, in a simulation of it; see Simulation.add_probe.
+
+        Args:
+            sim: a simulation that build() has made.
+
+        Returns:
+            A list of Probe, in the order of the file.
+
+        Raises:
+            SceneError: a plate, field or value that does not exist or is out of range, with file, line and table.
+
+        Example:
+            scene = granperi.Scene.read("collapse.toml")
+            with scene.build(spacing=0.01) as sim:
+                probes = scene.add_probes(sim)
+        """
         probes = []
         for part in self._probes():
             values = {name: value for name, value in part.values.items() if name != "output"}
@@ -196,7 +292,20 @@ class Scene:
         return probes
 
     def probe_files(self, result: str) -> list[str]:
-        """Where the probes are written to (CSV) beside a result: as `output` says, or RESULT_probe1.csv and so on."""
+        """Where the probes are written to (CSV) beside a result.
+
+        Args:
+            result: path of the result file.
+
+        Returns:
+            A list of paths: as the key output of each [[probe]] says, or RESULT_probe1.csv and so on.
+
+        Raises:
+            SceneError: an output that is no name of a file, or the same twice.
+
+        Example:
+            print(granperi.Scene.read("collapse.toml").probe_files("collapse.h5"))
+        """
         files = []
         for k, part in enumerate(self._probes(), 1):
             name = part.values.get("output", f"{os.path.splitext(os.path.basename(result))[0]}_probe{k}.csv")
@@ -208,7 +317,16 @@ class Scene:
         return files
 
     def write_into(self, name: str) -> None:
-        """Has the run write NAME.h5, and its probes files that begin with NAME."""
+        """Has the run write NAME.h5, and its probes files that begin with NAME.
+
+        Args:
+            name: without an extension.
+
+        Example:
+            scene = granperi.Scene.read("collapse.toml")
+            scene.write_into("second")
+            print(scene.run.output)
+        """
         self.run.output = name + ".h5"
         for part in self._probes():
             if "output" in part.values:
@@ -216,16 +334,35 @@ class Scene:
 
     def record(self, path: "str | os.PathLike[str] | None" = None, progress: bool = False, *, overwrite: bool = False,
                resume: bool = False, checkpoint: float = CHECKPOINT_SECONDS) -> History:
-        """Builds the scene and runs it as its table [run] says; the frames go to `path` or run.output ("": nowhere,
-        and the probes neither).
+        """Builds the scene and runs it as its table [run] says, into a result file of which nothing is ever lost.
 
-        Nothing is lost: all of the scene is checked before a file is touched, the run is written into a directory beside
-        its place (collapse.part/ for collapse.h5), and moved there when it is complete. A result that exists is a FileError,
-        unless overwrite (it is replaced by the complete new one) or resume is true: this goes on with a run that was
-        interrupted, with the same bits as if it had not been, or makes a complete one longer (run.end), and does nothing
-        where all is done. For that a checkpoint (collapse.gpc) is saved every `checkpoint` seconds of wall-clock time, when the
-        run is interrupted, and at its end. One process at a time runs into a place: StateError. Another scene than the one
-        that was begun is an ArgumentError that says what differs; its threads, end, until and every may change.
+        All of the scene is checked before a file is touched, the run is written into a directory beside its place
+        (collapse.part/ for collapse.h5), and moved there when it is complete. A checkpoint (collapse.gpc) is saved on the way,
+        when the run is interrupted, and at its end; with resume the run goes on from it with the same bits as if it had not
+        been interrupted.
+
+        Args:
+            path: of the result; not given: run.output; "": nowhere, and the probes neither.
+            progress: shows a bar (needs tqdm).
+            overwrite: a result that exists is replaced by the complete new one.
+            resume: goes on with a run that was interrupted, or makes a complete one longer (run.end); does nothing where all is
+                done.
+            checkpoint: s of wall-clock time between two checkpoints, above 0.
+
+        Returns:
+            The History of the states at the frames.
+
+        Raises:
+            FileError: a result that exists (unless overwrite or resume), a directory that does not, a full disk.
+            StateError: another process runs into this place.
+            ArgumentError: resume with another scene than the one that was begun, with what differs; its threads, end, until and
+                every may change.
+            SceneError: what the library refuses, with file, line and table.
+
+        Example:
+            scene = granperi.Scene.read("collapse.toml")
+            history = scene.record("recorded.h5", overwrite=True)
+            print(history.time[-1], "s")
         """
         path = os.fspath(path) if path is not None else self.run.output
         if path:
@@ -238,21 +375,51 @@ class Scene:
     def write(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
         """Writes a scene file (TOML), from which read() makes the same scene. Files of points and masks are referred to.
 
-        FileError: the file exists, and overwrite is false.
+        Args:
+            path: of the file.
+            overwrite: replaces a file that exists.
+
+        Raises:
+            FileError: the file exists, and overwrite is false; or it cannot be written.
+
+        Example:
+            granperi.Scene.read("collapse.toml").write("copy.toml", overwrite=True)
         """
         path = os.fspath(path)
         require_free(path, overwrite)
         write_text(path, self.text(os.path.dirname(os.path.abspath(path))))
 
     def text(self, directory: str = ".") -> str:
-        """What write() writes into a file in this directory."""
+        """What write() writes.
+
+        Args:
+            directory: in which the file is to be: points and masks are named from there.
+
+        Returns:
+            TOML.
+
+        Example:
+            print(granperi.Scene.read("collapse.toml").text())
+        """
         tables = [(part.kind, {name: os.path.relpath(value, directory) if name == "file" else value
                                for name, value in part.values.items()}) for part in self._parts]
         return _toml.text_of_scene(self.config, self.run, tables)
 
     def set(self, key: str, value: Any) -> None:
-        """Changes one value, named as in a sweep: "config.spacing", "run.end", "column.height" where there is one column,
-        "column.2.height" of the second one, "material.fine.mu_s" of the one with this name."""
+        """Changes one value, named as in a sweep.
+
+        Args:
+            key: "config.spacing", "run.end", "column.height" where there is one column, "column.2.height" of the second one,
+                "material.fine.mu_s" of the one with this name.
+            value: in the unit of that key.
+
+        Raises:
+            ArgumentError: a key that does not exist, or that means several tables.
+
+        Example:
+            scene = granperi.Scene.read("collapse.toml")
+            scene.set("column.height", 0.08)
+        """
         names = key.split(".") if isinstance(key, str) else []
         if len(names) == 2 and names[0] == "config" and names[1] in CONFIG and names[1] != "preset":
             self.config = self.config.replace(**{"nonlocal_" if names[1] == "nonlocal" else names[1]: value})

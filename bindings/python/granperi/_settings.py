@@ -38,7 +38,18 @@ class Settings:
         return {"spacing": self.spacing, "horizon": self.horizon, "sleep": self.sleep}
 
     def config(self, config: Config | None = None) -> Config:
-        """`config` (the library's defaults) with these settings; what else it says stays."""
+        """A configuration with these settings; what else it says stays.
+
+        Args:
+            config: whose other values stay; not given: the library's defaults.
+
+        Returns:
+            A Config.
+
+        Example:
+            config = granperi.settings("draft", 0.05).config(granperi.Config(sound_speed=10))
+            print(config.spacing, config.sound_speed)
+        """
         return (config or Config()).replace(**self.values)
 
     def __str__(self) -> str:
@@ -74,21 +85,29 @@ _LEVELS = {
 def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Settings:
     """Recommended settings of the default scheme for a scene, or for bodies of a length.
 
-    name: "draft" to see that a scene is right, "standard" for results, "fine" to see whether they still move. of: a Scene, the
-    path of a scene file, or the smallest side [m] of the bodies that are to be resolved, finite and above 0. A scene's is the
-    smallest width or height of its columns. Where something smaller decides (an opening, an obstacle, a thin layer), give its
-    length.
+    Errors and cost are those of three collapses of glass beads (docs/settings.md): what another scene errs by, only runs of it
+    at several spacings tell, as granperi.report makes them; its cost grows as its particles and its steps.
 
+    Args:
+        name: "draft" to see that a scene is right, "standard" for results, "fine" to see whether they still move.
+        of: a Scene, the path of a scene file, or the smallest side (m) of the bodies that are to be resolved, finite and above
+            0. A scene's is the smallest width or height of its columns. Where something smaller decides (an opening, an
+            obstacle, a thin layer), give its length.
+
+    Returns:
+        Settings.
+
+    Raises:
+        ArgumentError: another name; a length that is not finite or not above 0; a scene without columns, or with particles
+            given one by one, which have a spacing of their own.
+
+    Example:
         scene = granperi.Scene.read("collapse.toml")
         scene.config = granperi.settings("standard", scene).config(scene.config)
 
-    Errors and cost are those of three collapses of glass beads (docs/settings.md): what another scene errs by, only runs of it
-    at several spacings tell, as granperi.report makes them; its cost grows as its particles and its steps. With granular fluidity
-    take the smaller of this spacing and half a grain. sleep = 1 ends creep slower than 0.006 sqrt(g spacing): set 0 where creep
-    is the question.
-
-    ArgumentError: another name; a length that is not finite or not above 0; a scene without columns, or with particles given
-    one by one, which have a spacing of their own.
+    Restrictions:
+        With granular fluidity take the smaller of this spacing and half a grain. sleep = 1 ends creep slower than 0.006 sqrt(g
+        spacing): set 0 where creep is the question.
     """
     if not isinstance(name, str):
         raise ArgumentTypeError(f"name = {name!r:.80}: expected one of {', '.join(_LEVELS)}")

@@ -201,6 +201,16 @@ class History:
         self.states: list[State] = list(states)
 
     def append(self, state: State) -> None:
+        """Adds a state at the end.
+
+        Args:
+            state: a State, later than those that are there.
+
+        Example:
+            history = granperi.History()
+            history.append(sim.state)
+            print(history.time)
+        """
         self.states.append(state)
 
     def __len__(self) -> int:
@@ -218,8 +228,19 @@ class History:
         raise AttributeError(f"a history has no '{name}'; it has the fields of granperi.State")
 
     def to_csv(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
-        """Writes a line per state, with a column for each field of State, as CSV; FileError if the file exists and overwrite is
-        false."""
+        """Writes a line per state, with a column for each field of State, as CSV.
+
+        Args:
+            path: of the file.
+            overwrite: replaces a file that exists.
+
+        Raises:
+            FileError: the file exists, and overwrite is false; or it cannot be written.
+
+        Example:
+            list(sim.frames(0.02, every=0.01))
+            sim.history.to_csv("history.csv", overwrite=True)
+        """
         write_csv(path, _STATE_NAMES, ([getattr(state, name) for name in _STATE_NAMES] for state in self.states), overwrite)
 
     def _repr_html_(self) -> str:

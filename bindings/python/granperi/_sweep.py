@@ -54,7 +54,19 @@ class Sweep:
         return self.rows[key]
 
     def to_csv(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
-        """Writes the table as CSV; FileError if the file exists and overwrite is false."""
+        """Writes the table as CSV.
+
+        Args:
+            path: of the file.
+            overwrite: replaces a file that exists.
+
+        Raises:
+            FileError: the file exists, and overwrite is false; or it cannot be written.
+
+        Example:
+            table = granperi.sweep("collapse.toml", {"config.spacing": [0.02]}, workers=1)
+            table.to_csv("table.csv", overwrite=True)
+        """
         write_csv(path, self.names, ([row.get(name, "") for name in self.names] for row in self.rows), overwrite)
 
     def _shown(self) -> tuple[list[str], list[list[Any]]]:
@@ -220,18 +232,31 @@ class _Runs:
 
 def sweep(scene: Any, parameters: Any, directory: "str | os.PathLike[str]" = "sweep", workers: int | None = None,
           progress: bool = False, overwrite: bool = False) -> Sweep:
-    """Runs a scene (a Scene or the path of one) once per point, several beside each other, and returns the table of results.
+    """Runs a scene once per point, several beside each other, and returns the table of results.
 
-        table = granperi.sweep("collapse.toml", {"config.spacing": [0.005, 0.0025], "column.height": [0.05, 0.1]})
-        table["peak_height"]
+    Each point has a scene file in the directory, a result, a checkpoint and a log of what it said; the table is in sweep.csv.
+    What is complete is not run again, what was interrupted goes on: call it once more. One that fails does not stop the others:
+    table.failed. Ctrl-C has all save a checkpoint and end.
 
-    parameters: {key: values}, of which all combinations are run, or a list of points {key: value}; keys as in Scene.set(). Each
-    point has a scene file in the directory, a result, a checkpoint and a log of what it said; the table is in sweep.csv. What
-    is complete is not run again, what was interrupted goes on: call it once more. A point whose scene file is there with
-    other content is a FileError, unless overwrite is true, which deletes its result.
+    Args:
+        scene: a Scene, or the path of a scene file.
+        parameters: {key: values}, of which all combinations are run, or a list of points {key: value}; keys as in Scene.set().
+        directory: where the files are; it is made if need be.
+        workers: processes at a time, at least 1; not given: the processors that this one may use, over the scene's threads.
+        progress: shows a bar (needs tqdm).
+        overwrite: a point whose scene file is there with other content is run anew, and its old result deleted.
 
-    workers: processes at a time, by default the processors that this one may use, over the scene's threads. One that fails
-    does not stop the others: table.failed. Ctrl-C has all save a checkpoint and end.
+    Returns:
+        The Sweep: a row per point.
+
+    Raises:
+        SceneError: a point that the library refuses; all are built before the first run.
+        ArgumentError: a key that does not exist, the same point twice, workers below 1.
+        FileError: a point whose scene file is there with other content, and overwrite is false.
+
+    Example:
+        table = granperi.sweep("collapse.toml", {"config.spacing": [0.02, 0.01]}, workers=1)
+        print(table["peak_height"])
     """
     require_tqdm(progress)
     scene = scene_of(scene)

@@ -72,39 +72,102 @@ class FieldView(NDArrayOperatorsMixin):
         return iter(self.copy())
 
     def copy(self) -> np.ndarray:
-        """An array of its own, in the library's order."""
+        """An array of its own, in the library's order.
+
+        Returns:
+            Shape (n).
+
+        Raises:
+            StateError: the simulation has changed since.
+
+        Example:
+            print(sim.view("x").x.copy().shape)
+        """
         return self._raw().copy()
 
     @property
     def shape(self) -> tuple[int]:
+        """(n,)"""
         return (len(self),)
 
     @property
     def dtype(self) -> np.dtype:
+        """Of numpy: float64; of id int64, of column int32."""
         return np.dtype(_TYPES.get(self._name, "<f8"))
 
     ndim = 1
 
     @property
     def size(self) -> int:
+        """n"""
         return len(self)
 
     def min(self):
+        """The smallest value.
+
+        Returns:
+            A number.
+
+        Example:
+            print(sim.view("x").x.min(), "m")
+        """
         return self._raw().min()
 
     def max(self):
+        """The largest value.
+
+        Returns:
+            A number.
+
+        Example:
+            print(sim.view("x").x.max(), "m")
+        """
         return self._raw().max()
 
     def sum(self):
+        """The sum of all values.
+
+        Returns:
+            A number.
+
+        Example:
+            print(sim.view("pressure").pressure.sum())
+        """
         return self._raw().sum()
 
     def mean(self):
+        """The mean of all values.
+
+        Returns:
+            A number.
+
+        Example:
+            print(sim.view("pressure").pressure.mean(), "Pa")
+        """
         return self._raw().mean()
 
     def argmin(self):
+        """The place of the smallest value in the library's order.
+
+        Returns:
+            A whole number.
+
+        Example:
+            view = sim.view("y", "id")
+            print(view.id[view.y.argmin()], "is the lowest")
+        """
         return self._raw().argmin()
 
     def argmax(self):
+        """The place of the largest value in the library's order.
+
+        Returns:
+            A whole number.
+
+        Example:
+            view = sim.view("y", "id")
+            print(view.id[view.y.argmax()], "is the highest")
+        """
         return self._raw().argmax()
 
     def __repr__(self) -> str:
@@ -195,6 +258,7 @@ class Particles:
 
     @property
     def names(self) -> tuple[str, ...]:
+        """The names of the fields."""
         return self._names
 
     def __getitem__(self, name: str) -> np.ndarray:

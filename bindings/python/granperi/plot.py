@@ -178,7 +178,24 @@ def _time_text(axes: Axes, time: float):
 
 
 def field(source: Any, name: str = "speed", time: float | None = None, axes: Axes | None = None) -> Axes:
-    """Map of a field: any of the particle fields, or "speed", "shear_stress", "yielded". time [s]: of a result file."""
+    """Map of a field.
+
+    Args:
+        source: a simulation (as it is now), a Result or its path, or a Snapshot.
+        name: of a field of Field, in small letters, or "speed", "shear_stress", "yielded".
+        time: s, of a result; not given: the last frame.
+        axes: of matplotlib, to draw into; not given: a figure of its own.
+
+    Returns:
+        matplotlib's axes.
+
+    Raises:
+        ArgumentError: a name that does not exist, a field that the file has not, a time without a frame.
+        FileError: a file that is no result.
+
+    Example:
+        granperi.plot.field("collapse.h5", "pressure", time=0.02).figure.savefig("pressure.png")
+    """
     shot = snapshot(source, time)
     values = shot.field(name)
     colours = _colours(name, values)
@@ -194,8 +211,23 @@ def surface(source: Any, time: "float | Sequence[float] | None" = None, axes: Ax
             label: str | None = None) -> Axes:
     """The free surface of the deposit, and the plates, where they are at that time.
 
-    time [s]: of a result file, one or several, from light to dark: plot.surface("collapse.h5", [0, 0.1, 0.2, 0.4]). Draw into the
-    same axes for several sources.
+    Draw into the same axes for several sources.
+
+    Args:
+        source: a simulation (as it is now), a Result or its path, or a Snapshot.
+        time: s, of a result, one or several, from light to dark; not given: the last frame.
+        axes: of matplotlib, to draw into; not given: a figure of its own.
+        label: in the legend; not given: the time.
+
+    Returns:
+        matplotlib's axes.
+
+    Raises:
+        ArgumentError: a time without a frame, no time at all.
+        FileError: a file that is no result.
+
+    Example:
+        granperi.plot.surface("collapse.h5", [0, 0.02, 0.04]).figure.savefig("surface.png")
     """
     if time is None or np.ndim(time) == 0:
         return _surfaces([snapshot(source, time)], axes, None if label is None else [label], [None])
@@ -237,7 +269,26 @@ def _surfaces(shots: Sequence[Snapshot], axes: Axes | None, labels: "list[str] |
 
 
 def interface(source: Any, left: int = 0, right: int = 1, time: float | None = None, axes: Axes | None = None) -> Axes:
-    """The particles by column, and the interface of two columns."""
+    """The particles by column, and the interface of two columns.
+
+    Args:
+        source: a simulation (as it is now), a Result or its path, or a Snapshot.
+        left, right: numbers of two columns or sets of particles.
+        time: s, of a result; not given: the last frame.
+        axes: of matplotlib, to draw into; not given: a figure of its own.
+
+    Returns:
+        matplotlib's axes.
+
+    Raises:
+        ArgumentError: a column that does not exist, a time without a frame.
+        FileError: a file that is no result.
+
+    Example:
+        sim.add_column(x_min=0.05, width=0.05, height=0.05)
+        sim.run(0.02)
+        granperi.plot.interface(sim, 0, 1).figure.savefig("interface.png")
+    """
     shot = snapshot(source, time)
     axes = _scene_axes(axes, _bounds(shot), bar=False)
     column = shot.field("column")
@@ -257,7 +308,22 @@ def interface(source: Any, left: int = 0, right: int = 1, time: float | None = N
 
 
 def energy(source: Any, axes: Axes | None = None) -> Axes:
-    """The energy ledger over time, of a history, a simulation that has kept one, or a result file."""
+    """The energy ledger over time.
+
+    Args:
+        source: a History, a simulation that has kept one (frames, record), a Result or its path.
+        axes: of matplotlib, to draw into; not given: a figure of its own.
+
+    Returns:
+        matplotlib's axes.
+
+    Raises:
+        ArgumentError: a source without frames.
+        FileError: a file that is no result.
+
+    Example:
+        granperi.plot.energy("collapse.h5").figure.savefig("energy.png")
+    """
     past = history(source)
     axes = _curve_axes(axes, "t (s)", "energy (J per metre of depth)")
     parts = {"potential": "#4c78a8", "kinetic": "#f58518", "elastic": "#72b7b2", "dissipated": "#b279a2",
@@ -276,8 +342,24 @@ def energy(source: Any, axes: Axes | None = None) -> Axes:
 
 
 def fronts(source: Any, axes: Axes | None = None) -> Axes:
-    """Time-distance diagram of where the mass lies: bands that hold its middle 98, 90 and 50 %, the middle and the peak. Unlike the
-    outermost grains, which a single one sets, these converge with the spacing."""
+    """Time-distance diagram of where the mass lies: bands that hold its middle 98, 90 and 50 %, the middle and the peak.
+
+    Unlike the outermost grains, which a single one sets, these converge with the spacing.
+
+    Args:
+        source: a History, a simulation that has kept one (frames, record), a Result or its path.
+        axes: of matplotlib, to draw into; not given: a figure of its own.
+
+    Returns:
+        matplotlib's axes.
+
+    Raises:
+        ArgumentError: a source without frames.
+        FileError: a file that is no result.
+
+    Example:
+        granperi.plot.fronts("collapse.h5").figure.savefig("fronts.png")
+    """
     past = history(source)
     axes = _curve_axes(axes, "x (m)", "t (s)")
     for low, high, share, colour in ((past.x_q01, past.x_q99, 98, "#d7e4f0"), (past.x_q05, past.x_q95, 90, "#a9c6e0"),
@@ -294,7 +376,24 @@ def fronts(source: Any, axes: Axes | None = None) -> Axes:
 
 def compare(one: Any, other: Any, time: float | None = None, labels: tuple[str, str] = ("first", "second"),
             axes: Axes | None = None) -> Axes:
-    """The free surfaces of two sources over each other."""
+    """The free surfaces of two sources over each other.
+
+    Args:
+        one, other: simulations (as they are now), results, their paths, or snapshots.
+        time: s, of results; not given: the last frame.
+        labels: two texts for the legend.
+        axes: of matplotlib, to draw into; not given: a figure of its own.
+
+    Returns:
+        matplotlib's axes.
+
+    Raises:
+        ArgumentError: a time without a frame.
+        FileError: a file that is no result.
+
+    Example:
+        granperi.plot.compare("collapse.h5", sim).figure.savefig("both.png")
+    """
     shots = [snapshot(source, time) for source in (one, other)]
     bounds = np.array([_bounds(shot) for shot in shots])
     axes = _scene_axes(axes, (bounds[:, 0].min(), bounds[:, 1].max(), bounds[:, 2].min(), bounds[:, 3].max()), bar=False)

@@ -1,0 +1,78 @@
+"""The numbers of docs/validation.md that README and the guide repeat: (name, what it is, number)."""
+from __future__ import annotations
+
+import fluid_runs
+import physics_sections as physics
+import references as ref
+import runs
+from markdown import NONE, fixed, percent, signed
+from measures import peak
+from results import Collection
+
+
+def rows(results: Collection) -> list[tuple[str, str, str]]:
+    found = [*_both_side(results), *_paper(results), *_others(results), *_fluidity(results)]
+    minutes = sum(result.cpu for result in results.found.values()) / 60
+    return [(f"validation.{name}", what, text) for name, what, text in found] + [
+        ("validation.cpu_minutes", "CPU minutes of all runs", fixed(minutes, 0))
+    ]
+
+
+def _both_side(results: Collection) -> list[tuple[str, str, str]]:
+    default, walls = (results(runs.resolution_run(scheme, 32)) for scheme in ("default", "walls"))
+    top, beside = (peak(result) if result else None for result in (default, walls))
+    error = 100 * abs(default.summary["energy_error_share"]) if default else None
+    return [
+        ("both_side.peak", "a = 1.25, L/dl = 32, default scheme: peak y/L at 0.42 s", fixed(top)),
+        ("both_side.peak_off", "off the experiment", percent(top, ref.EXPERIMENT_PEAK)),
+        ("both_side.peak_side_walls", f"the same between walls {runs.CHANNEL_WIDTH:g} m apart", fixed(beside)),
+        ("both_side.experiment", "the experiment", f"{ref.EXPERIMENT_PEAK}"),
+        ("both_side.ledger_error", "error of the default's energy ledger, of E0", NONE if error is None else f"{error:.2g} %"),
+    ]
+
+
+def _paper(results: Collection) -> list[tuple[str, str, str]]:
+    default, printed = (results(runs.resolution_run(scheme, 32)) for scheme in ("default", "nonlocal_2"))
+    change = percent(peak(printed, 3.0), peak(printed), 0) if printed else NONE
+    cost = printed.cpu_to(1.0) / default.cpu_to(1.0) if printed and default else None
+    return [
+        ("paper.peak_change", "the paper's scheme: change of its peak from 0.42 to 3 s", change),
+        ("paper.cost", "its CPU time over the default's", fixed(cost, 0)),
+    ]
+
+
+def _others(results: Collection) -> list[tuple[str, str, str]]:
+    low, high = ref.CODES_PEAK_BAND
+    fronts = {}
+    for name in ("front_02", "front_05"):
+        offs = [
+            abs(row[name] / row[f"discs_{name}"] - 1)
+            for a in ref.CONTACT_DYNAMICS
+            if (result := results(runs.contact_dynamics(a)))
+            for row in physics.contact_rows(result, a)
+        ]
+        fronts[name] = f"{100 * max(offs):.0f} %" if offs else NONE
+    run_outs = [
+        100 * (result.summary["run_out_98"] / ref.lagree_run_out(a) - 1)
+        for sides in (2, 1)
+        for a in runs.ASPECTS
+        if (result := results(runs.scaling(a, sides)))
+    ]
+    least, most = (f"{signed(one, 0)} %" for one in (min(run_outs), max(run_outs))) if run_outs else (NONE, NONE)
+    return [
+        ("codes.peak_least", "other codes, instant release: lowest peak y/L", fixed(low)),
+        ("codes.peak_most", "highest", fixed(high)),
+        ("discs.front_02", "front (0.02 H0) beside contact dynamics: off by up to", fronts["front_02"]),
+        ("discs.front_05", "front (0.05 H0)", fronts["front_05"]),
+        ("scaling.run_out_least", "run-out against Lagrée et al. (2011), of all aspect ratios: least", least),
+        ("scaling.run_out_most", "most", most),
+    ]
+
+
+def _fluidity(results: Collection) -> list[tuple[str, str, str]]:
+    found = []
+    for n, name, spacing in ((2, "half", "half a grain"), (4, "quarter", "a quarter")):
+        lid = results(fluid_runs.couette(n))
+        error = percent(lid.summary["stress"], lid.summary["stress_exact"]) if lid else NONE
+        found.append((f"fluidity.stress_{name}", f"granular fluidity, spacing {spacing}: error of the stress of a lid", error))
+    return found
