@@ -87,16 +87,20 @@ int main(int argc, char **argv) {
     MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, spent, 3, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     const gp_plan_entry after = entry_of(sim, "messages"), reduced_after = entry_of(sim, "reductions");
+    /* Messages and bytes that a process sends in a step: in all, and of the one that sends most. */
+    double sent[2] = {(double)(after.calls - before.calls) / steps, (double)(after.bytes - before.bytes) / steps},
+           most_sent[2];
+    MPI_Allreduce(sent, most_sent, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, sent, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     check(gp_get_particles(sim, GP_FIELD_ID, &own));
     double n = (double)own.count;
     MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     if (rank == 0)
         printf("particles %.0f ranks %d: outside of MPI %.1f ns/particle-step in all, busiest %.4f s, with MPI %.4f s, "
                "wall %.4f s; per step: "
-               "%.2f messages, %.0f bytes, %.2f reductions\n",
-               serial ? n / ranks : n, ranks, 1e9 * all / n / steps, most, spent[0], spent[2],
-               (double)(after.calls - before.calls) / steps, (double)(after.bytes - before.bytes) / steps,
-               (double)(reduced_after.calls - reduced.calls) / steps);
+               "%.2f messages in all, %.2f of one process, %.0f bytes in all, %.0f of one, %.2f reductions\n",
+               serial ? n / ranks : n, ranks, 1e9 * all / n / steps, most, spent[0], spent[2], sent[0], most_sent[0],
+               sent[1], most_sent[1], (double)(reduced_after.calls - reduced.calls) / steps);
     gp_destroy(sim);
     MPI_Finalize();
     return 0;

@@ -34,24 +34,6 @@ template <class T> gp_status initialise(T *target, std::size_t size, const T &de
     return GP_OK;
 }
 
-// The sink of a process among several: all know when a frame is due, and the first one writes it.
-class SharedFrames : public FrameSink {
-public:
-    SharedFrames(Sim &sim, io::Output *output, const io::FrameTimes &times)
-        : sim_(sim), output_(output), times_(times) {}
-    void step_done(const World &part) override {
-        if (!times_.due(part))
-            return;
-        times_.pass(part);
-        on_whole(sim_, [&](const World &world) { output_->step_done(world); });
-    }
-
-private:
-    Sim &sim_;
-    io::Output *output_;
-    io::FrameTimes times_;
-};
-
 void put_id(int32_t *id, int32_t value) {
     if (id)
         *id = value;
@@ -236,7 +218,8 @@ gp_status gp_save(gp_sim *sim, const char *path) {
             return GP_OK;
         }
         s.prepare();
-        on_whole(s, [&](const World &world) { save(&world); });
+        const World *whole = s.whole();
+        on_first(s.world(), [&] { save(whole); });
         return GP_OK;
     });
 }
@@ -268,18 +251,8 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
             throw make_error(GP_E_STATE, "gp_output_open: an output is open already; gp_output_close it first");
         const gp_output options = output ? complete(output, io::default_output(), "gp_output") : io::default_output();
         s.prepare();
-        on_whole(s, [&](const World &world) {
-            sim->output = std::make_unique<io::Output>(path, options, world, sim->left_off);
-        });
+        sim->output = std::make_unique<io::Output>(path, options, s.world(), sim->left_off);
         s.sink = sim->output.get();
-        if (s.crossing()) {
-            io::FrameTimes times;
-            if (sim->output)
-                times = sim->output->times();
-            tell_all(s, &times, 1);
-            sim->frames = std::make_unique<SharedFrames>(s, sim->output.get(), times);
-            s.sink = sim->frames.get();
-        }
         sim->left_off = {};
         return GP_OK;
     });
@@ -290,7 +263,7 @@ gp_status gp_output_write(gp_sim *sim) {
         require_simulation(sim);
         if (!sim->sim.sink)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
-        on_whole(readable(sim), [&](const World &world) { sim->output->write(world); });
+        sim->output->write(readable(sim).world());
         return GP_OK;
     });
 }
@@ -302,10 +275,7 @@ gp_status gp_output_close(gp_sim *sim) {
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");
         s.sink = nullptr;
         const std::unique_ptr<io::Output> closing = std::move(sim->output);
-        if (s.crossing())
-            run_on_first(*s.crossing(), [&] { closing->close(); });
-        else
-            closing->close();
+        on_first(s.world(), [&] { closing->close(); });
         return GP_OK;
     });
 }

@@ -18,16 +18,7 @@ inline Sim &readable(gp_sim *handle) {
     return handle->sim;
 }
 
-// Looks at the whole of a world that several processes may have parts of: body runs on the first of them.
-template <class Body> void on_whole(Sim &sim, const Body &body) {
-    const World *whole = sim.whole();
-    if (sim.crossing())
-        run_on_first(*sim.crossing(), [&] { body(*whole); });
-    else
-        body(*whole);
-}
-
-// What has come of that goes to all.
+// What the first process has found goes to all.
 template <class T> void tell_all(const Sim &sim, T *values, int64_t count) {
     if (sim.crossing())
         sim.crossing()->broadcast(values, count * static_cast<int64_t>(sizeof(T)), 0);

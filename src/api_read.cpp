@@ -12,6 +12,7 @@
 #include "error.hpp"
 #include "fields.hpp"
 #include "granperi/gp.h"
+#include "stretches.hpp"
 
 namespace {
 
@@ -34,12 +35,9 @@ gp_status hand_out_state(gp_sim *sim, uint32_t parts, gp_state *target) {
     Sim &s = readable(sim);
     const bool fresh = sim->state_epoch != s.epoch();
     if (fresh || (parts & ~sim->state_parts)) {
-        on_whole(s, [&](const World &world) {
-            if (fresh)
-                sim->state = measure_sums(world);
-            measure_parts(world, fresh ? parts : parts & ~sim->state_parts, sim->state);
-        });
-        tell_all(s, &sim->state, 1);
+        if (fresh)
+            sim->state = measure_sums(s.world());
+        measure_parts(s.world(), fresh ? parts : parts & ~sim->state_parts, sim->state);
         sim->state_parts = fresh ? parts : sim->state_parts | parts;
         sim->state_epoch = s.epoch();
     }
@@ -111,15 +109,16 @@ gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
         Sim &s = readable(sim);
         if (s.crossing() && s.crossing()->rank() > 0 && n != 0)
             throw make_error(GP_E_ARGUMENT, "n = %lld: expected 0 but on the first process", static_cast<long long>(n));
-        on_whole(s, [&](const World &world) {
-            if (n != world.particles.count)
+        FieldsById fields(s.world());
+        on_first(s.world(), [&] {
+            if (n != fields.count())
                 throw make_error(GP_E_ARGUMENT, "n = %lld: expected the number of particles, %lld",
-                                 static_cast<long long>(n), static_cast<long long>(world.particles.count));
-            if (n > 0) {
+                                 static_cast<long long>(n), static_cast<long long>(fields.count()));
+            if (n > 0)
                 require_pointer("dst", dst);
-                copy_field_by_id(world, field, dst);
-            }
         });
+        for (int64_t first = 0; first < fields.count(); first += stretch_size)
+            fields.read(field, first, std::min(stretch_size, fields.count() - first), dst ? dst + first : nullptr);
         return GP_OK;
     });
 }
@@ -163,8 +162,8 @@ gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height
     return guard([&] {
         require_stations(n, "x", x, "height", height);
         Sim &s = readable(sim);
-        on_whole(s, [&](const World &world) {
-            const Surface surface(world, connected_deposit(world));
+        const Surface surface(s.world(), connected_deposit(s.world()));
+        on_first(s.world(), [&] {
             for (int64_t k = 0; k < n; ++k)
                 if (!surface.height(x[k], height[k]))
                     height[k] = 0;
@@ -183,11 +182,9 @@ gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, 
         if (left == right)
             throw make_error(GP_E_ARGUMENT, "right = %d: expected another column than left", right);
         require_stations(n, "y", y, "x", x);
-        on_whole(s, [&](const World &world) {
-            for (int64_t k = 0; k < n; ++k)
-                if (!interface_at(world, left, right, y[k], x[k]))
-                    x[k] = std::numeric_limits<double>::quiet_NaN();
-        });
+        for (int64_t k = 0; k < n; ++k)
+            if (!interface_at(s.world(), left, right, y[k], x[k]))
+                x[k] = std::numeric_limits<double>::quiet_NaN();
         tell_all(s, x, n);
         return GP_OK;
     });

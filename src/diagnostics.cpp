@@ -6,10 +6,68 @@
 #include <limits>
 
 #include "ledger.hpp"
+#include "parts.hpp"
 #include "stages/stages.hpp"
+#include "stretches.hpp"
 #include "volume_drift.hpp"
 
 namespace gp {
+
+namespace {
+
+// Over one stretch of particles after the other.
+class StateSums {
+public:
+    explicit StateSums(const World &world) : energies_(world) {}
+
+    void add(const World &world) {
+        const Particles &p = world.particles;
+        energies_.add(world);
+        centre_.add(world);
+        box_.add(world);
+        double momentum_x = momentum_x_, momentum_y = momentum_y_, speed2 = speed2_;
+        for (int64_t i = 0; i < p.count; ++i) {
+            const double mass = world.material_of(i).density * p.volume;
+            const double own2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i];
+            momentum_x += mass * p.vx[i];
+            momentum_y += mass * p.vy[i];
+            speed2 += own2;
+            most_speed2_ = std::max(most_speed2_, own2);
+            most_pressure_ = std::max(most_pressure_, p.pressure[i]);
+        }
+        momentum_x_ = momentum_x;
+        momentum_y_ = momentum_y;
+        speed2_ = speed2;
+        count_ += p.count;
+    }
+
+    void hand_out(const World &world, gp_state &s) const {
+        const Energies &e = energies_.all();
+        s.n_particles = count_;
+        s.kinetic = e.kinetic;
+        s.potential = e.potential;
+        s.elastic = e.elastic;
+        s.momentum_x = momentum_x_;
+        s.momentum_y = momentum_y_;
+        s.max_pressure = most_pressure_;
+        s.max_speed = std::sqrt(most_speed2_);
+        s.rms_speed = count_ > 0 ? std::sqrt(speed2_ / static_cast<double>(count_)) : 0.0;
+        const Vector centre = centre_.of();
+        s.centre_x = centre.x();
+        s.centre_y = centre.y();
+        s.energy_error = world.ledger.initial - (e.sum() + world.ledger.dissipated + world.ledger.plate_work);
+        s.at_rest = is_at_rest(world, e.kinetic, count_, box_.of()) ? 1 : 0;
+    }
+
+private:
+    EnergySums energies_;
+    CentreSums centre_;
+    BoxOfAll box_;
+    int64_t count_ = 0;
+    double momentum_x_ = 0, momentum_y_ = 0, speed2_ = 0, most_speed2_ = 0, most_pressure_ = 0;
+};
+
+} // namespace
 
 gp_state measure_sums(const World &world) {
     const Particles &p = world.particles;
@@ -22,16 +80,9 @@ gp_state measure_sums(const World &world) {
     s.dt_limit = stages::stable_dt(world.constants);
     s.retries = world.retries;
     s.max_compression = world.max_compression;
-    s.n_particles = p.count;
-    s.n_awake = p.count - std::count(p.asleep.begin(), p.asleep.begin() + (p.asleep.empty() ? 0 : p.count), 1);
 
-    const Energies e = measure_energies(world);
-    s.kinetic = e.kinetic;
-    s.potential = e.potential;
-    s.elastic = e.elastic;
     s.dissipated = world.ledger.dissipated;
     s.plate_work = world.ledger.plate_work;
-    s.energy_error = world.ledger.initial - (e.sum() + s.dissipated + s.plate_work);
     s.penalty_dissipated = world.ledger.penalty;
     s.wall_dissipated = world.ledger.walls;
     s.diffusion_dissipated = world.ledger.diffusion;
@@ -46,27 +97,18 @@ gp_state measure_sums(const World &world) {
     s.implicit_failures = world.viscous.failures;
     s.implicit_residual = world.viscous.last_residual;
 
-    double speed2 = 0;
-    for (int64_t i = 0; i < p.count; ++i) {
-        const double mass = world.material_of(i).density * p.volume;
-        const double own2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i];
-        s.momentum_x += mass * p.vx[i];
-        s.momentum_y += mass * p.vy[i];
-        speed2 += own2;
-        s.max_speed = std::max(s.max_speed, own2);
-        s.max_pressure = std::max(s.max_pressure, p.pressure[i]);
-    }
-    s.max_speed = std::sqrt(s.max_speed);
-    s.rms_speed = p.count > 0 ? std::sqrt(speed2 / static_cast<double>(p.count)) : 0.0;
+    StateSums sums(world);
+    for_each_stretch(world, {}, [&](const World &stretch, const char *) { sums.add(stretch); });
+    sums.hand_out(world, s);
+    // Of several processes none sleeps.
+    s.n_awake = s.n_particles - std::count(p.asleep.begin(), p.asleep.begin() + (p.asleep.empty() ? 0 : p.count), 1);
 
-    const Vector centre = centre_of_mass(world);
-    s.centre_x = centre.x();
-    s.centre_y = centre.y();
-    s.at_rest = is_at_rest(world, e.kinetic) ? 1 : 0;
     s.collisions = world.collisions;
     s.sound_speed = world.constants.sound_speed;
     s.gravity_x = world.constants.gravity.x();
     s.gravity_y = world.constants.gravity.y();
+    if (world.crossing)
+        world.crossing->broadcast(&s, sizeof s, 0);
     return s;
 }
 
@@ -74,11 +116,13 @@ void measure_parts(const World &world, uint32_t parts, gp_state &s) {
     if (parts & GP_STATE_DEPOSIT) {
         const std::vector<char> connected = connected_deposit(world);
         const Surface surface(world, connected);
-        if (!surface.empty()) {
+        on_first(world, [&] {
+            if (surface.empty())
+                return;
             s.x_left = surface.left();
             s.x_right = surface.right();
             surface.peak(s.peak_x, s.peak_height);
-        }
+        });
         s.detached = detached_share(world, connected);
     }
     if (parts & GP_STATE_MARKS) {
@@ -93,6 +137,8 @@ void measure_parts(const World &world, uint32_t parts, gp_state &s) {
     }
     if (parts & GP_STATE_DRIFT)
         s.volume_drift = drift_of(world, measure_packing(world, Part::flowing));
+    if (world.crossing)
+        world.crossing->broadcast(&s, sizeof s, 0);
 }
 
 void leave_out(uint32_t parts, gp_state &s) {

@@ -1,4 +1,7 @@
 // What a simulation can tell of itself. Everything here only reads.
+//
+// Of a world in parts all calls are collective, and tell of the whole: surfaces, marks, sums and shares on the first process, states
+// on all.
 #pragma once
 
 #include <array>
@@ -18,7 +21,7 @@ void measure_parts(const World &world, uint32_t parts, gp_state &state);
 void leave_out(uint32_t parts, gp_state &state);
 gp_state measure_state(const World &world); // with all parts
 
-// 1 for the particles of the connected deposit: the largest set in which each is within 1.6 spacings of another (of equal
+// 1 for the particles (of this process) of the connected deposit: the largest set in which each is within 1.6 spacings of another (of equal
 // sets the one with the smallest id).
 std::vector<char> connected_deposit(const World &world);
 
@@ -40,9 +43,10 @@ private:
     class Strip;
     struct Point {
         double x, y;
-        int32_t wall; // in walls_, that mirrored it; -1: a particle
+        int32_t wall; // that mirrored it: its facet, then its place in walls_; -1: a particle
     };
-    void add_mirrored(const Walls &walls, int64_t place, const Vector &at, std::vector<int32_t> &wall_of);
+    void add_mirrored(const Walls &walls, int64_t place, const Vector &at);
+    void number_walls(const Walls &walls);
     bool height(double x, double radius, double &y, bool &full) const;
     bool is_filled(double x, double y, double radius) const; // half or more of the radius
     std::vector<double> stations_near_top() const;
@@ -58,11 +62,28 @@ private:
 constexpr std::array<double, 7> mass_shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 using MassMarks = std::array<double, mass_shares.size()>;
 MassMarks measure_marks(const World &world);
-Vector centre_of_mass(const World &world);
+// Over one stretch of particles after the other (stretches.hpp).
+class CentreSums {
+public:
+    void add(const World &stretch);
+    Vector of() const; // the centre of mass
+
+private:
+    bool begun_ = false;
+    double first_x_ = 0, first_y_ = 0, mass_ = 0, x_ = 0, y_ = 0;
+};
+class BoxOfAll {
+public:
+    void add(const World &stretch);
+    const Box &of() const { return box_; }
+
+private:
+    Box box_{INFINITY, -INFINITY, INFINITY, -INFINITY};
+};
 double detached_share(const World &world, const std::vector<char> &connected); // outside of the connected deposit
 
-// Has the material come to rest, and what moves it? gp_state.at_rest in gp.h says what that means.
-bool is_at_rest(const World &world, double kinetic);
+// Has the material come to rest, and what moves it? gp_state.at_rest in gp.h says what that means. count, box: of all particles.
+bool is_at_rest(const World &world, double kinetic, int64_t count, const Box &box);
 
 // Interface of two bodies at height y; false where they do not touch.
 bool interface_at(const World &world, int32_t left, int32_t right, double y, double &x);

@@ -5,7 +5,9 @@
 #include <iterator>
 
 #include "diagnostics.hpp"
+#include "parts.hpp"
 #include "sort_by_x.hpp"
+#include "stretches.hpp"
 
 namespace gp {
 
@@ -29,18 +31,11 @@ public:
             }
             masses_.push_back({x, mass});
         }
-        sort_by_x(masses_, [](const Mass &a, const Mass &b) { return a.x != b.x ? a.x < b.x : a.mass < b.mass; });
-        before_.reserve(masses_.size() + 1);
-        before_.push_back(0);
-        for (const Mass &m : masses_)
-            before_.push_back(before_.back() + m.mass);
-        left_ = masses_.front().x - 0.5 * spacing_;
-        right_ = masses_.back().x + 0.5 * spacing_;
-        if (period) {
-            left_ = std::max(left_, period.x_min);
-            right_ = std::min(right_, period.x_min + period.length);
-        }
+        collect(world.crossing, masses_);
+        on_first(world, [&] { add_up(period); });
     }
+
+    bool empty() const { return masses_.empty(); }
 
     // Where `share` of the mass between the ends lies to the left; the middle of a gap.
     double mark(double share) const {
@@ -54,6 +49,22 @@ private:
     struct Mass {
         double x, mass;
     };
+
+    void add_up(const Period &period) {
+        if (masses_.empty())
+            return;
+        sort_by_x(masses_, [](const Mass &a, const Mass &b) { return a.x != b.x ? a.x < b.x : a.mass < b.mass; });
+        before_.reserve(masses_.size() + 1);
+        before_.push_back(0);
+        for (const Mass &m : masses_)
+            before_.push_back(before_.back() + m.mass);
+        left_ = masses_.front().x - 0.5 * spacing_;
+        right_ = masses_.back().x + 0.5 * spacing_;
+        if (period) {
+            left_ = std::max(left_, period.x_min);
+            right_ = std::min(right_, period.x_min + period.length);
+        }
+    }
 
     double at(double x) const {
         const auto before = [](const Mass &m, double value) { return m.x < value; };
@@ -74,7 +85,7 @@ private:
         return high;
     }
 
-    double spacing_, left_, right_;
+    double spacing_, left_ = 0, right_ = 0;
     std::vector<Mass> masses_;   // by x
     std::vector<double> before_; // kg/m, of those before each
 };
@@ -83,37 +94,48 @@ private:
 
 MassMarks measure_marks(const World &world) {
     MassMarks marks{};
-    if (world.particles.count == 0)
-        return marks;
     const MassLeftOf mass(world);
+    if (mass.empty())
+        return marks;
     for (std::size_t k = 0; k < marks.size(); ++k)
         marks[k] = mass.mark(mass_shares[k]);
     return marks;
 }
 
-Vector centre_of_mass(const World &world) {
+void CentreSums::add(const World &world) {
     const Particles &p = world.particles;
-    if (p.count == 0)
-        return Vector(0, 0);
-    double all = 0, x = 0, y = 0;
+    if (!begun_ && p.count > 0) {
+        first_x_ = p.x[0];
+        first_y_ = p.y[0];
+        begun_ = true;
+    }
+    double all = mass_, x = x_, y = y_;
     for (int64_t i = 0; i < p.count; ++i) {
         const double mass = world.material_of(i).density * p.volume;
         all += mass;
-        x += mass * (p.x[i] - p.x[0]);
-        y += mass * (p.y[i] - p.y[0]);
+        x += mass * (p.x[i] - first_x_);
+        y += mass * (p.y[i] - first_y_);
     }
-    return {p.x[0] + x / all, p.y[0] + y / all};
+    mass_ = all;
+    x_ = x;
+    y_ = y;
+}
+
+Vector CentreSums::of() const {
+    return begun_ ? Vector(first_x_ + x_ / mass_, first_y_ + y_ / mass_) : Vector(0, 0);
 }
 
 double detached_share(const World &world, const std::vector<char> &connected) {
-    const Particles &p = world.particles;
     double all = 0, apart = 0;
-    for (int64_t i = 0; i < p.count; ++i) {
-        const double mass = world.material_of(i).density * p.volume;
-        all += mass;
-        apart += connected[i] ? 0.0 : mass;
-    }
-    return p.count > 0 ? apart / all : 0.0;
+    for_each_stretch(world, connected, [&](const World &stretch, const char *is_connected) {
+        const Particles &p = stretch.particles;
+        for (int64_t i = 0; i < p.count; ++i) {
+            const double mass = stretch.material_of(i).density * p.volume;
+            all += mass;
+            apart += is_connected[i] ? 0.0 : mass;
+        }
+    });
+    return all > 0 ? apart / all : 0.0;
 }
 
 } // namespace gp

@@ -79,13 +79,9 @@ bool rests(const World &world, const Plate &plate, double energy) {
 }
 
 // Does a plate move, or will it, that the material feels or comes to feel?
-bool plates_move(const World &world, double energy) {
-    const Particles &p = world.particles;
-    if (p.count == 0)
+bool plates_move(const World &world, const Box &material, double energy) {
+    if (!(material.x_min <= material.x_max)) // there is none
         return false;
-    const auto [x_min, x_max] = std::minmax_element(p.x.begin(), p.x.begin() + p.count);
-    const auto [y_min, y_max] = std::minmax_element(p.y.begin(), p.y.begin() + p.count);
-    const Box material{*x_min, *x_max, *y_min, *y_max};
     return std::any_of(world.walls.plates.begin(), world.walls.plates.end(), [&](const Plate &plate) {
         Box way = way_ahead(plate, world.clock.time);
         const Vector &push = plate.spec().back_normal;
@@ -110,15 +106,20 @@ bool plates_move(const World &world, double energy) {
 
 } // namespace
 
-bool is_at_rest(const World &world, double kinetic) {
+void BoxOfAll::add(const World &stretch) {
+    const Box of = box_of(stretch.particles);
+    box_ = {std::min(box_.x_min, of.x_min), std::max(box_.x_max, of.x_max), std::min(box_.y_min, of.y_min),
+            std::max(box_.y_max, of.y_max)};
+}
+
+bool is_at_rest(const World &world, double kinetic, int64_t count, const Box &box) {
     const double scale = std::max(world.ledger.scale, world.ledger.largest_kinetic);
     const Constants &c = world.constants;
-    const bool still = world.clock.step == 0
-                           ? kinetic == 0 && c.gravity.norm() == 0
-                           : kinetic <= rest_kinetic * scale &&
-                                 world.plastic_power * c.time_scale() <= rest_plastic * scale &&
-                                 world.unbalanced_share <= unbalanced_share_at_rest(world.particles.count);
-    return still && !plates_move(world, rest_kinetic * scale); // in this order: plates_move looks at all particles
+    const bool still = world.clock.step == 0 ? kinetic == 0 && c.gravity.norm() == 0
+                                             : kinetic <= rest_kinetic * scale &&
+                                                   world.plastic_power * c.time_scale() <= rest_plastic * scale &&
+                                                   world.unbalanced_share <= unbalanced_share_at_rest(count);
+    return still && !plates_move(world, box, rest_kinetic * scale);
 }
 
 } // namespace gp

@@ -4,6 +4,8 @@
 #include <numeric>
 
 #include "diagnostics.hpp"
+#include "parts.hpp"
+#include "stretches.hpp"
 
 namespace gp {
 
@@ -47,8 +49,11 @@ private:
     std::vector<int32_t> parent_;
 };
 
-// Links the particles of one cluster with those in its row.
-void link_cluster(const World &world, int64_t cluster, const ClusterRows &rows, Sets &sets) {
+// Calls linked(i, near) for the particles of one cluster and those in its row to which they are linked, but for those of which it is
+// known; near: an index of the lists, of a particle or an image.
+template <class Known, class Linked>
+void for_each_link(const World &world, int64_t cluster, const ClusterRows &rows, const Known &known,
+                   const Linked &linked) {
     const Particles &p = world.particles;
     const ClusterList &list = world.clusters;
     const double link = link_distance * world.constants.spacing;
@@ -56,43 +61,158 @@ void link_cluster(const World &world, int64_t cluster, const ClusterRows &rows, 
     for (int32_t place = list.first[cluster]; place < list.first[cluster + 1]; ++place) {
         const auto i = static_cast<int32_t>(world.particle_listed_at(place));
         const double x = p.x[i], y = p.y[i];
-        int32_t root = sets.root_of(i);
         for_each_entry(list, rows, cluster, [&](int64_t k, int32_t listed) {
             const int64_t near = world.particle_listed_at(listed);
-            const auto j = static_cast<int32_t>(world.images.source(near));
             const double dx = p.x[near] - x, dy = p.y[near] - y;
-            if (!sets.are_near(j, root) && dx * dx + dy * dy < link * link &&
+            if (!known(i, near) && dx * dx + dy * dy < link * link &&
                 (!partly || (rows.seen_by[k] >> (place - list.first[cluster]) & 1)))
-                root = sets.unite(root, j);
+                linked(i, near);
         });
     }
 }
 
-} // namespace
+// Links the particles of one cluster with those in its row; of a part of a world not with those of other processes.
+void link_cluster(const World &world, int64_t cluster, const ClusterRows &rows, Sets &sets) {
+    const int64_t others = world.crossing ? world.particles.count : INT64_MAX;
+    int32_t of = -1, root = -1;
+    const auto is_known = [&](int32_t i, int64_t near) {
+        if (of != i) {
+            of = i;
+            root = sets.root_of(i);
+        }
+        return near >= others || sets.are_near(static_cast<int32_t>(world.images.source(near)), root);
+    };
+    for_each_link(world, cluster, rows, is_known, [&](int32_t, int64_t near) {
+        root = sets.unite(root, static_cast<int32_t>(world.images.source(near)));
+    });
+}
 
-std::vector<char> connected_deposit(const World &world) {
-    const Particles &p = world.particles;
+bool sees_others(const World &world, int64_t cluster) {
+    bool found = false;
+    for_each_entry(world.clusters, world.clusters.all, cluster,
+                   [&](int64_t, int32_t near) { found = found || near >= world.particles.count; });
+    return found;
+}
+
+// The sets of this process's particles.
+Sets link_all(const World &world) {
     const ClusterList &clusters = world.clusters;
-    Sets sets(p.count);
+    Sets sets(world.particles.count);
     // Those that may collide make one set of nearly all; what is left to link then has an end outside of the largest.
     for (int64_t c = 0; c < clusters.count(); ++c)
         link_cluster(world, c, clusters.close, sets);
-    const int32_t most = sets.largest(p.id);
+    const int32_t most = sets.largest(world.particles.id);
     for (int64_t c = 0; c < clusters.count(); ++c)
         for (int32_t place = clusters.first[c]; place < clusters.first[c + 1]; ++place)
             if (sets.root_of(static_cast<int32_t>(world.particle_listed_at(place))) != sets.root_of(most)) {
                 link_cluster(world, c, clusters.all, sets);
                 break;
             }
-    const int32_t largest = sets.largest(p.id);
-    std::vector<char> connected(p.count);
-    for (int32_t i = 0; i < p.count; ++i)
+    return sets;
+}
+
+// A set of one process's particles: label is the id of one of them.
+struct PartOfSet {
+    double label, size, smallest_id;
+    bool operator<(const PartOfSet &other) const { return label < other.label; }
+};
+struct Link {
+    double a, b; // labels
+    bool operator<(const Link &other) const { return a != other.a ? a < other.a : b < other.b; }
+    bool operator==(const Link &other) const { return a == other.a && b == other.b; }
+};
+
+// The labels, in order, that together are the largest set.
+std::vector<double> labels_of_largest(std::vector<PartOfSet> parts, const std::vector<Link> &links) {
+    std::vector<double> labels;
+    if (parts.empty())
+        return labels;
+    std::sort(parts.begin(), parts.end());
+    const auto place_of = [&](double label) {
+        return static_cast<int32_t>(std::lower_bound(parts.begin(), parts.end(), PartOfSet{label, 0, 0}) -
+                                    parts.begin());
+    };
+    Sets sets(static_cast<int64_t>(parts.size()));
+    for (const Link &link : links)
+        sets.unite(place_of(link.a), place_of(link.b));
+    std::vector<PartOfSet> whole = parts;
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        if (const auto root = static_cast<std::size_t>(sets.root_of(static_cast<int32_t>(k))); root != k) {
+            whole[root].size += parts[k].size;
+            whole[root].smallest_id = std::min(whole[root].smallest_id, parts[k].smallest_id);
+            whole[k].size = 0;
+        }
+    for (std::size_t k = 0; k < whole.size(); ++k)
+        if (whole[k].size > whole[found].size ||
+            (whole[k].size == whole[found].size && whole[k].smallest_id < whole[found].smallest_id))
+            found = k;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        if (sets.root_of(static_cast<int32_t>(k)) == sets.root_of(static_cast<int32_t>(found)))
+            labels.push_back(parts[k].label);
+    return labels;
+}
+
+// Each process links its own; the first one links their sets, by the links across.
+std::vector<char> connected_deposit_of_parts(const World &world) {
+    const Particles &p = world.particles;
+    Crossing &crossing = *world.crossing;
+    Sets sets = link_all(world);
+    Field<double> label(static_cast<std::size_t>(p.count + world.images.count));
+    std::vector<PartOfSet> parts;
+    std::vector<std::size_t> part_of(static_cast<std::size_t>(p.count));
+    for (int64_t i = 0; i < p.count; ++i) { // a root is the first of its set
+        const int32_t root = sets.root_of(static_cast<int32_t>(i));
+        const auto id = static_cast<double>(p.id[i]);
+        if (root == i) {
+            part_of[i] = parts.size();
+            parts.push_back({id, 0, id});
+        }
+        part_of[i] = part_of[root];
+        PartOfSet &part = parts[part_of[i]];
+        ++part.size;
+        part.smallest_id = std::min(part.smallest_id, id);
+        label[i] = part.label;
+    }
+    world.images.copy(label);
+    std::vector<Link> links;
+    for (int64_t c = 0; c < world.clusters.count(); ++c)
+        if (sees_others(world, c))
+            for_each_link(
+                world, c, world.clusters.all, [&](int32_t, int64_t near) { return near < p.count; },
+                [&](int32_t i, int64_t near) {
+                    links.push_back({label[i], label[near]});
+                });
+    std::sort(links.begin(), links.end());
+    links.erase(std::unique(links.begin(), links.end()), links.end());
+    collect(&crossing, links);
+    collect(&crossing, parts);
+    std::vector<double> largest;
+    on_first(world, [&] { largest = labels_of_largest(parts, links); });
+    auto size = static_cast<int64_t>(largest.size());
+    crossing.broadcast(&size, sizeof size, 0);
+    largest.resize(static_cast<std::size_t>(size));
+    crossing.broadcast(largest.data(), size * static_cast<int64_t>(sizeof(double)), 0);
+    std::vector<char> connected(static_cast<std::size_t>(p.count));
+    for (int64_t i = 0; i < p.count; ++i)
+        connected[i] = std::binary_search(largest.begin(), largest.end(), label[i]);
+    return connected;
+}
+
+} // namespace
+
+std::vector<char> connected_deposit(const World &world) {
+    if (world.crossing)
+        return connected_deposit_of_parts(world);
+    Sets sets = link_all(world);
+    const int32_t largest = sets.largest(world.particles.id);
+    std::vector<char> connected(world.particles.count);
+    for (int32_t i = 0; i < world.particles.count; ++i)
         connected[i] = sets.root_of(i) == largest;
     return connected;
 }
 
 bool interface_at(const World &world, int32_t left, int32_t right, double y, double &x) {
-    const Particles &p = world.particles;
     const double spacing = world.constants.spacing;
     struct Row {
         double x;
@@ -100,11 +220,14 @@ bool interface_at(const World &world, int32_t left, int32_t right, double y, dou
     };
     std::vector<Row> row;
     int64_t wrong = 0; // with the border left of everything: all of `left` is on the wrong side
-    for (int64_t i = 0; i < p.count; ++i)
-        if (std::abs(p.y[i] - y) <= spacing && (p.column[i] == left || p.column[i] == right)) {
-            row.push_back({p.x[i], p.column[i] == left});
-            wrong += p.column[i] == left;
-        }
+    for_each_stretch(world, {}, [&](const World &stretch, const char *) {
+        const Particles &p = stretch.particles;
+        for (int64_t i = 0; i < p.count; ++i)
+            if (std::abs(p.y[i] - y) <= spacing && (p.column[i] == left || p.column[i] == right)) {
+                row.push_back({p.x[i], p.column[i] == left});
+                wrong += p.column[i] == left;
+            }
+    });
     const auto lefts = wrong;
     if (lefts == 0 || lefts == static_cast<int64_t>(row.size()))
         return false;

@@ -13,7 +13,9 @@
 
 #include "diagnostics.hpp"
 #include "kernel.hpp"
+#include "parts.hpp"
 #include "sort_by_x.hpp"
+#include "stretches.hpp"
 
 namespace gp {
 
@@ -39,22 +41,43 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
     std::vector<int64_t> place_of(world.listed.empty() ? 0 : p.count); // in the lists, where a sort was undone
     for (std::size_t place = 0; place < place_of.size(); ++place)
         place_of[world.listed[place]] = static_cast<int64_t>(place);
-    std::vector<int32_t> wall_of(world.walls.facets.size(), -1);
-    for (int64_t i = 0; i < p.count + world.images.count; ++i) {
-        const int64_t source = world.images.source(i);
-        if (!connected[source])
-            continue;
-        points_.push_back({p.x[i], p.y[i], -1});
-        left_ = std::min(left_, p.x[i]);
-        right_ = std::max(right_, p.x[i]);
+    // Of a part of a world, the images are other processes' particles; those across the ends of a period are made here.
+    const auto add = [&](int64_t source, const Vector &at) {
+        points_.push_back({at.x(), at.y(), -1});
+        left_ = std::min(left_, at.x());
+        right_ = std::max(right_, at.x());
         if (!world.walls.contact_start.empty())
-            add_mirrored(world.walls, place_of.empty() ? source : place_of[source], {p.x[i], p.y[i]}, wall_of);
+            add_mirrored(world.walls, place_of.empty() ? source : place_of[source], at);
+    };
+    for (int64_t i = 0; i < p.count; ++i)
+        if (connected[i])
+            add(i, {p.x[i], p.y[i]});
+    if (!world.crossing) {
+        for (int64_t i = p.count; i < p.count + world.images.count; ++i)
+            if (const int64_t source = world.images.source(i); connected[source])
+                add(source, {p.x[i], p.y[i]});
+    } else if (world.constants.period) {
+        for_each_image(world, [&](int64_t i, double shift) {
+            if (connected[i])
+                add(i, {p.x[i] + shift, p.y[i]});
+        });
     }
-    sort_by_x(points_, [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    if (world.crossing) {
+        collect(world.crossing, points_);
+        for (const Point &point : points_)
+            if (point.wall < 0) {
+                left_ = std::min(left_, point.x);
+                right_ = std::max(right_, point.x);
+            }
+    }
+    on_first(world, [&] {
+        number_walls(world.walls);
+        sort_by_x(points_, [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    });
 }
 
 // The mirror images of one particle in the plates that it is in contact with.
-void Surface::add_mirrored(const Walls &walls, int64_t place, const Vector &at, std::vector<int32_t> &wall_of) {
+void Surface::add_mirrored(const Walls &walls, int64_t place, const Vector &at) {
     for (int64_t c = walls.contact_start[place]; c < walls.contact_start[place + 1]; ++c) {
         const int32_t id = walls.contacts[c].facet;
         const Segment &s = walls.facets[id].segment;
@@ -62,17 +85,28 @@ void Surface::add_mirrored(const Walls &walls, int64_t place, const Vector &at, 
         const double distance = s.distance(image), along = s.along(image), beyond = past_end * spacing_;
         if (distance > 2 * peak_radius * spacing_ || along < -beyond || along > s.length + beyond)
             continue;
-        if (wall_of[id] < 0) {
-            wall_of[id] = static_cast<int32_t>(walls_.size());
-            Segment wall = s;
-            if (walls.period && walls.period.spanned_by(s)) { // it has no ends
-                wall = s.moved(-s.length * s.tangent);
-                wall.length *= 3;
-            }
-            walls_.push_back(wall);
-        }
         const Vector mirrored = at - 2 * distance * s.normal;
-        points_.push_back({mirrored.x(), mirrored.y(), wall_of[id]});
+        points_.push_back({mirrored.x(), mirrored.y(), id});
+    }
+}
+
+// Of all facets, those that mirror something.
+void Surface::number_walls(const Walls &walls) {
+    std::vector<int32_t> wall_of(walls.facets.size(), -1);
+    for (Point &point : points_) {
+        if (point.wall < 0)
+            continue;
+        int32_t &wall = wall_of[point.wall];
+        if (wall < 0) {
+            wall = static_cast<int32_t>(walls_.size());
+            const Segment &s = walls.facets[point.wall].segment;
+            walls_.push_back(s);
+            if (walls.period && walls.period.spanned_by(s)) { // it has no ends
+                walls_.back() = s.moved(-s.length * s.tangent);
+                walls_.back().length *= 3;
+            }
+        }
+        point.wall = wall;
     }
 }
 

@@ -1,9 +1,12 @@
 #include "fields.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "kernel.hpp"
 #include "parallel.hpp"
+#include "stretches.hpp"
 
 namespace gp {
 
@@ -83,17 +86,43 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
     }
 }
 
-void copy_field_by_id(const World &world, uint32_t bit, double *out) {
-    const Particles &p = world.particles;
-    if (bit == GP_FIELD_ID || bit == GP_FIELD_COLUMN) {
-        for (int64_t i = 0; i < p.count; ++i)
-            out[p.id[i]] = bit == GP_FIELD_ID ? static_cast<double>(p.id[i]) : static_cast<double>(p.column[i]);
+FieldsById::FieldsById(const World &world)
+    : world_(world), count_(count_of_all(world)), by_id_(static_cast<std::size_t>(world.particles.count)) {
+    const Field<int64_t> &id = world.particles.id;
+    if (!world.crossing) { // all are here
+        for (int64_t i = 0; i < count_; ++i)
+            by_id_[id[i]] = static_cast<int32_t>(i);
         return;
     }
-    Field<double> scratch;
-    const double *values = read_field(world, bit, scratch);
-    for (int64_t i = 0; i < p.count; ++i)
-        out[p.id[i]] = values[i];
+    std::iota(by_id_.begin(), by_id_.end(), 0);
+    std::sort(by_id_.begin(), by_id_.end(), [&](int32_t a, int32_t b) { return id[a] < id[b]; });
+}
+
+void FieldsById::read(uint32_t bit, int64_t first, int64_t count, double *out) {
+    const Particles &p = world_.particles;
+    const bool stored = bit != GP_FIELD_ID && bit != GP_FIELD_COLUMN;
+    if (stored && bit != bit_) {
+        values_ = read_field(world_, bit, scratch_);
+        bit_ = bit;
+    }
+    const auto value_of = [&](int32_t i) {
+        return stored ? values_[i] : static_cast<double>(bit == GP_FIELD_ID ? p.id[i] : p.column[i]);
+    };
+    if (!world_.crossing) {
+        for (int64_t k = 0; k < count; ++k)
+            out[k] = value_of(by_id_[first + k]);
+        return;
+    }
+    std::vector<double> own, all;
+    auto next =
+        std::lower_bound(by_id_.begin(), by_id_.end(), first, [&](int32_t i, int64_t id) { return p.id[i] < id; });
+    for (; next != by_id_.end() && p.id[*next] < first + count; ++next) {
+        own.push_back(static_cast<double>(p.id[*next]));
+        own.push_back(value_of(*next));
+    }
+    world_.crossing->gather(own, all);
+    for (std::size_t k = 0; k < all.size(); k += 2)
+        out[static_cast<int64_t>(all[k]) - first] = all[k + 1];
 }
 
 } // namespace gp

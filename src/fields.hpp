@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "world.hpp"
 
@@ -11,7 +12,21 @@ namespace gp {
 // the particles, or to scratch, which then holds the derived values.
 const double *read_field(const World &world, uint32_t bit, Field<double> &scratch);
 
-// The same for any field, copied in the order of id and converted to double. out: shape (count).
-void copy_field_by_id(const World &world, uint32_t bit, double *out);
+// Any fields, in the order of id and converted to double, of a world that may be in parts: some particles at a time. Collective.
+class FieldsById {
+public:
+    explicit FieldsById(const World &world);
+    int64_t count() const { return count_; } // of all processes
+    // On the first process out: (count), those of the ids from `first` on.
+    void read(uint32_t bit, int64_t first, int64_t count, double *out);
+
+private:
+    const World &world_;
+    int64_t count_;
+    std::vector<int32_t> by_id_; // the particles here
+    uint32_t bit_ = 0;           // whose values these are
+    const double *values_ = nullptr;
+    Field<double> scratch_;
+};
 
 } // namespace gp

@@ -19,9 +19,8 @@ struct gp_sim {
         : sim(config, std::move(crossing)) {}
 
     gp::Sim sim;
-    std::unique_ptr<gp::io::Output> output; // of several processes, the first one's
-    std::unique_ptr<gp::FrameSink> frames;  // while an output is open: what writes to it, each process's own
-    gp::io::OutputPosition left_off;        // of a checkpoint that this was loaded from, until an output is open again
+    std::unique_ptr<gp::io::Output> output;
+    gp::io::OutputPosition left_off; // of a checkpoint that this was loaded from, until an output is open again
 
     // What views point to, and the last measured state; good while the epoch is the same.
     gp::Field<double> derived[15];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "material/compression.hpp"
+#include "stretches.hpp"
 
 namespace gp {
 
@@ -36,11 +37,10 @@ auto energy_of(Scheme scheme) {
 
 namespace {
 
-double measure_potential(const World &world) {
+double potential_of(const World &world, double potential) {
     const Particles &p = world.particles;
     const Vector &g = world.constants.gravity;
     const double reference = g.norm() * world.ledger.reference_height;
-    double potential = world.ledger.level;
     for (int64_t i = 0; i < p.count; ++i)
         potential += world.material_of(i).density * p.volume * (-g.x() * p.x[i] - g.y() * p.y[i] - reference);
     return potential;
@@ -48,16 +48,29 @@ double measure_potential(const World &world) {
 
 } // namespace
 
-Energies measure_energies(const World &world) {
+EnergySums::EnergySums(const World &world) {
+    sums_.potential = world.ledger.level;
+}
+
+void EnergySums::add(const World &world) {
     const Particles &p = world.particles;
     const auto elastic = energy_of(world.constants.scheme);
-    Energies e;
-    e.potential = measure_potential(world);
+    Energies e = sums_;
+    e.potential = potential_of(world, e.potential);
     for (int64_t i = 0; i < p.count; ++i) {
         const MaterialConstants &m = world.material_of(i);
         e.kinetic += 0.5 * (m.density * p.volume) * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
         e.elastic += p.volume * elastic(p, m, i);
     }
+    sums_ = e;
+}
+
+Energies measure_energies(const World &world) {
+    EnergySums sums(world);
+    for_each_stretch(world, {}, [&](const World &stretch, const char *) { sums.add(stretch); });
+    Energies e = sums.all();
+    if (world.crossing)
+        world.crossing->broadcast(&e, sizeof e, 0);
     return e;
 }
 
@@ -69,12 +82,17 @@ void count_from_lowest(World &world) {
     const Vector &g = world.constants.gravity;
     Ledger &ledger = world.ledger;
     ledger.reference_height = 0;
-    if (p.count > 0 && g.norm() > 0) {
+    if (g.norm() > 0) {
         const Vector up = -g.normalized();
         double lowest = INFINITY;
         for (int64_t i = 0; i < p.count; ++i)
             lowest = std::min(lowest, up.dot(Vector(p.x[i], p.y[i])));
-        ledger.reference_height = lowest - 0.5 * world.constants.spacing;
+        if (double highest = -lowest; world.crossing) {
+            world.crossing->combine(&highest, 1, nullptr, 0);
+            lowest = -highest;
+        }
+        if (lowest < INFINITY)
+            ledger.reference_height = lowest - 0.5 * world.constants.spacing;
     }
     ledger.level = 0;
 }
@@ -88,12 +106,41 @@ void open_ledger(World &world) {
     world.ledger.largest_kinetic = e.kinetic;
 }
 
+namespace {
+
+// The particles that are the farthest along gravity and across it: all that a fall is told from. Of all processes.
+void find_farthest(const World &world, const Vector &gravity, std::vector<double> &x, std::vector<double> &y) {
+    const Particles &p = world.particles;
+    const Vector along = gravity.norm() > 0 ? gravity.normalized() : Vector(0, -1);
+    std::vector<double> own_x, own_y;
+    for (const Vector &way : {along, Vector(-along), Vector(-along.y(), along.x()), Vector(along.y(), -along.x())}) {
+        int64_t farthest = 0;
+        for (int64_t i = 1; i < p.count; ++i)
+            if (way.dot(Vector(p.x[i], p.y[i])) > way.dot(Vector(p.x[farthest], p.y[farthest])))
+                farthest = i;
+        if (p.count > 0) {
+            own_x.push_back(p.x[farthest]);
+            own_y.push_back(p.y[farthest]);
+        }
+    }
+    world.crossing->gather_everywhere(own_x, x);
+    world.crossing->gather_everywhere(own_y, y);
+}
+
+} // namespace
+
 void change_gravity(World &world, const Vector &gravity) {
     const Energies before = measure_energies(world);
     const Particles &p = world.particles;
-    world.scene->set_fall(world.constants, gravity, p.x.data(), p.y.data(), p.count);
+    if (world.crossing) {
+        std::vector<double> x, y;
+        find_farthest(world, gravity, x, y);
+        world.scene->set_fall(world.constants, gravity, x.data(), y.data(), static_cast<int64_t>(x.size()));
+    } else {
+        world.scene->set_fall(world.constants, gravity, p.x.data(), p.y.data(), p.count);
+    }
     count_from_lowest(world);
-    const double potential = measure_potential(world);
+    const double potential = measure_energies(world).potential;
     Ledger &ledger = world.ledger;
     ledger.level = before.potential - potential;
     ledger.scale = before.kinetic + before.elastic + potential;

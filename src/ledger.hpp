@@ -11,6 +11,18 @@ struct Energies {
     double sum() const { return kinetic + potential + elastic; }
 };
 
+// Over one stretch of a world's particles after the other (stretches.hpp).
+class EnergySums {
+public:
+    explicit EnergySums(const World &world);
+    void add(const World &stretch);
+    const Energies &all() const { return sums_; }
+
+private:
+    Energies sums_;
+};
+
+// Of all processes, and the same on all, as what follows.
 Energies measure_energies(const World &world);
 
 // Energy of the start, and the height from which the potential counts.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <new>
 
 #include "error.hpp"
 
@@ -116,6 +117,32 @@ std::string text_of_largest(Crossing &crossing, double &value, const std::string
     chosen.resize(static_cast<std::size_t>(size));
     crossing.broadcast(chosen.data(), size, from);
     return chosen;
+}
+
+void run_on_first(Crossing &crossing, const std::function<void()> &body) {
+    int64_t head[2] = {GP_OK, 0}; // status, length of the text
+    std::string text;
+    if (crossing.rank() == 0) {
+        try {
+            body();
+        } catch (const Error &error) {
+            head[0] = error.status();
+            text = error.what();
+        } catch (const std::bad_alloc &) {
+            head[0] = GP_E_MEMORY;
+            text = "out of memory";
+        } catch (const std::exception &error) {
+            head[0] = GP_E_INTERNAL;
+            text = error.what();
+        }
+        head[1] = static_cast<int64_t>(text.size());
+    }
+    crossing.broadcast(head, sizeof head, 0);
+    if (head[0] == GP_OK)
+        return;
+    text.resize(static_cast<std::size_t>(head[1]));
+    crossing.broadcast(text.data(), head[1], 0);
+    throw Error(static_cast<gp_status>(head[0]), text);
 }
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {

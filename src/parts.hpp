@@ -2,6 +2,7 @@
 // about single particles).
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string>
 
@@ -27,6 +28,40 @@ std::vector<Field<double> *> carried_fields(Particles &particles);
 // Room for so many particles.
 void resize_part(World &world, int64_t count);
 
+// Runs body on the first process; all throw what it throws there.
+void run_on_first(Crossing &crossing, const std::function<void()> &body);
+// The same for a world that may be no part: then here.
+template <class Body> void on_first(const World &world, const Body &body) {
+    if (world.crossing)
+        run_on_first(*world.crossing, body);
+    else
+        body();
+}
+// What is done on the first process while the others send: it goes on taking what they send when something fails, and all throw
+// that in the end.
+class OnFirst {
+public:
+    explicit OnFirst(Crossing &crossing) : crossing_(crossing) {}
+    template <class Body> void run(const Body &body) {
+        if (crossing_.rank() > 0 || failure_)
+            return;
+        try {
+            body();
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+    }
+    void finish() {
+        run_on_first(crossing_, [this] {
+            if (failure_)
+                std::rethrow_exception(failure_);
+        });
+    }
+
+private:
+    Crossing &crossing_;
+    std::exception_ptr failure_;
+};
 // Throws everywhere what look() throws anywhere, by the lowest rank; look() is called where there is something suspect.
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look);
 // The text of the rank with the largest value.

@@ -284,13 +284,7 @@ void Sim::set_gravity(double gx, double gy) {
     if (started_) {
         if (gravity == world_->constants.gravity)
             return;
-        if (crossing_) {
-            whole();
-            run_on_first(*crossing_, [&] { change_gravity(*whole_, gravity); });
-            spread_common(*world_, whole_.get());
-        } else {
-            change_gravity(*world_, gravity);
-        }
+        change_gravity(*world_, gravity);
         if (world_->sleep.in_use)
             stages::wake_all(*world_);
         ++epoch_;

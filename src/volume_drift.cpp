@@ -169,6 +169,12 @@ Packing measure_packing(const World &world, Part part) {
         all.particles += block.particles;
         all.density += block.density;
     }
+    if (world.crossing) {
+        Whole sums[] = {all.weights, all.particles};
+        world.crossing->combine(nullptr, 0, sums, 2);
+        all.weights = static_cast<int64_t>(sums[0]);
+        all.particles = static_cast<int64_t>(sums[1]);
+    }
     Packing packing;
     packing.particles = all.particles;
     if (all.particles > 0) {

@@ -10,7 +10,7 @@ namespace gp {
 // no part in it.
 struct Packing {
     double number_density = 0; // in the measure of volume_drift.cpp
-    double density = 0;        // over the material's own
+    double density = 0;        // over the material's own; of a part of a world it is not known
     int64_t particles = 0;     // that these are the means of
 };
 enum class Part { all, flowing }; // flowing: at yield under pressure, and shearing

@@ -1,7 +1,6 @@
 #include "whole.hpp"
 
 #include <algorithm>
-#include <new>
 
 #include "parts.hpp"
 #include "stages/stages.hpp"
@@ -14,32 +13,6 @@ void require_partable(const Scene &scene) {
         throw make_error(GP_E_UNSUPPORTED, "preset: several processes do not work on the paper's schemes");
     if (config.sleep != 0)
         throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = %d: expected 0 with several processes", config.sleep);
-}
-
-void run_on_first(Crossing &crossing, const std::function<void()> &body) {
-    int64_t head[2] = {GP_OK, 0}; // status, length of the text
-    std::string text;
-    if (crossing.rank() == 0) {
-        try {
-            body();
-        } catch (const Error &error) {
-            head[0] = error.status();
-            text = error.what();
-        } catch (const std::bad_alloc &) {
-            head[0] = GP_E_MEMORY;
-            text = "out of memory";
-        } catch (const std::exception &error) {
-            head[0] = GP_E_INTERNAL;
-            text = error.what();
-        }
-        head[1] = static_cast<int64_t>(text.size());
-    }
-    crossing.broadcast(head, sizeof head, 0);
-    if (head[0] == GP_OK)
-        return;
-    text.resize(static_cast<std::size_t>(head[1]));
-    crossing.broadcast(text.data(), head[1], 0);
-    throw Error(static_cast<gp_status>(head[0]), text);
 }
 
 namespace {
@@ -236,10 +209,6 @@ std::unique_ptr<World> put_together(const World &part) {
     }
     finish(*whole, common);
     return whole;
-}
-
-void spread_common(World &part, const World *whole) {
-    set_common(part, common_of_first(*part.crossing, whole), false);
 }
 
 } // namespace gp

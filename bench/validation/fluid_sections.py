@@ -105,19 +105,19 @@ def columns(results: Collection) -> str:
     cases += [(runs.COLUMNS[0], amplitude, runs.LONG_JITTER, 30) for amplitude in (0, 0.48)]
     for n, amplitude, jitter, end in cases:
         run = runs.collapse(n, amplitude, jitter, end)
-        drift = [_value(results, run, f"{name}_drift") for name in ("peak", "half")]
+        drift = [_value(results, run, f"{name}_drift") for name in ("peak", "run_out_90")]
         rows.append(
             [
                 f"L/dl = {n}{f', jitter {jitter:g}' if jitter else ''}, A = {amplitude:g}",
                 fixed(_value(results, run, "peak")),
-                fixed(_value(results, run, "half")),
+                fixed(_value(results, run, "run_out_90")),
                 fixed(_value(results, run, "rest"), 2),
                 significant(_value(results, run, "kinetic"), 2),
                 *(NONE if end == 2 or one is None else f"{100 * one:.2f} %" for one in drift),
                 cpu(_value(results, run, "cpu_seconds")),
             ]
         )
-    header = ["column", "peak/L", "R90/L", "at rest (s)", "KE/E0 at 2 s", "peak, 2 to 30 s", "R90, 2 to 30 s", "CPU s"]
+    header = ["column", "peak/L", "run-out, 90 %", "at rest (s)", "KE/E0 at 2 s", "peak, 2 to 30 s", "run-out, 2 to 30 s", "CPU s"]
     return table(header, rows)
 
 
@@ -125,13 +125,13 @@ def small_amplitude(results: Collection) -> str:
     rows = []
     for amplitude in (0, runs.SMALL_AMPLITUDE):
         cells = []
-        for name in ("peak", "half"):
+        for name in ("peak", "run_out_90"):
             found = [_value(results, runs.collapse(24, amplitude, jitter), name) for jitter in runs.ENSEMBLE]
             values = [one for one in found if one is not None]
             enough = len(values) > 1
             cells += [fixed(statistics.mean(values), 4), fixed(statistics.stdev(values), 4)] if enough else [NONE, NONE]
         rows.append([f"A = {amplitude:g}", *cells])
-    return table(["amplitude", "peak/L", "scatter", "R90/L", "scatter"], rows)
+    return table(["amplitude", "peak/L", "scatter", "run-out, 90 %", "scatter"], rows)
 
 
 def _largest(results: Collection, n: int) -> float | None:

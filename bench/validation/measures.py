@@ -14,10 +14,9 @@ def peak(result: Result, time: float = ref.PEAK_TIME) -> float:
     return result.at("peak_height", time) / ref.WIDTH
 
 
-def run_out_at(result: Result, time: float) -> float:
-    """(x - L0)/L0, mean of both sides, of the paper's two-sided columns: L0 = L/2."""
-    half = ref.WIDTH / 2
-    return (result.at("x_right", time) - result.at("x_left", time)) / 2 / half - 1
+def run_out_at(result: Result, time: float, share: str = "90") -> float:
+    """(x - L0)/L0 of 90 or 98 % of the mass (bench/marks.h), mean of both sides; "tip": of the connected deposit's ends."""
+    return result.at("tip" if share == "tip" else f"run_out_{share}", time)
 
 
 def contact_front(result: Result, time: float, height: float, threshold: float) -> float:

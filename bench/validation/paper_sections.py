@@ -183,7 +183,7 @@ def resolution(results: Collection) -> str:
     return (
         "Peak y/L at 0.42 s, in brackets the CPU s to that instant:\n\n"
         + table(header, rows)
-        + "\n\nRun-out (x - L0)/L0 at 0.42 s, L0 = L/2:\n\n"
+        + "\n\nRun-out (x - L0)/L0 of 90 % of the mass at 0.42 s, L0 = L/2:\n\n"
         + table(header, run_out)
     )
 

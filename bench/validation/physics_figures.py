@@ -68,7 +68,7 @@ def scaling(path: Path, results: Collection) -> bool:
         found = [(one, results(runs.scaling(one, sides))) for one in runs.ASPECTS]
         found = [(one, result) for one, result in found if result]
         drawn = drawn or bool(found)
-        left.plot([one for one, _ in found], [r.summary["run_out"] for _, r in found], label=label, **style)
+        left.plot([one for one, _ in found], [r.summary["run_out_98"] for _, r in found], label=label, **style)
         right.plot(
             [one for one, _ in found],
             [r.summary["peak_height"] / r.summary["reference_length"] for _, r in found],
@@ -82,7 +82,7 @@ def scaling(path: Path, results: Collection) -> bool:
         axes.minorticks_off()
     left.set_yticks([0.5, 1, 2, 5, 10, 20], ["0.5", "1", "2", "5", "10", "20"])
     right.set_yticks([0.5, 1, 2, 3], ["0.5", "1", "2", "3"])
-    left.set_ylabel("run-out (x - L0)/L0")
+    left.set_ylabel("run-out of 98 % of the mass / L0")
     right.set_ylabel("final height / L0")
     legend_above(figure, left, 3)
     return finish(figure, path) if drawn else (plt.close(figure) or False)

@@ -53,7 +53,7 @@ def _others(results: Collection) -> list[tuple[str, str, str]]:
         ]
         fronts[name] = f"{100 * max(offs):.0f} %" if offs else NONE
     run_outs = [
-        100 * (result.summary["run_out"] / ref.lagree_run_out(a) - 1)
+        100 * (result.summary["run_out_98"] / ref.lagree_run_out(a) - 1)
         for sides in (2, 1)
         for a in runs.ASPECTS
         if (result := results(runs.scaling(a, sides)))

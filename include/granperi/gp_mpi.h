@@ -16,8 +16,7 @@
  * of gp_state that are summed up in the course of a run are the same but for rounding.
  *
  * Errors come everywhere with one text, but for GP_E_MEMORY and GP_E_INTERNAL: after these a process may be alone with its error
- * while others wait for it, and MPI_Abort is what is left. gp_config.sleep, the implicit scheme and the paper's schemes are
- * GP_E_UNSUPPORTED. */
+ * while others wait for it, and MPI_Abort is what is left. gp_config.sleep and the paper's schemes are GP_E_UNSUPPORTED. */
 #ifndef GRANPERI_GP_MPI_H
 #define GRANPERI_GP_MPI_H
 

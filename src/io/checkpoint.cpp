@@ -8,6 +8,7 @@
 #include "io/checkpoint_parts.hpp"
 #include "io/checkpoint_sleep.hpp"
 #include "io/safe_file.hpp"
+#include "parts.hpp"
 #include "stages/stages.hpp"
 #endif
 

@@ -20,6 +20,7 @@ struct EarlierFrames::Impl : Hdf5Writer {
     Id observables;
     std::size_t wall_points = 0;
     mutable std::vector<double> packed;
+    mutable std::vector<double> unpacked[2]; // two components of one field
 
     [[noreturn]] void refuse(const std::string &why) const {
         throw make_error(GP_E_IO, "%s: cannot be continued: %s", path.c_str(), why.c_str());
@@ -61,22 +62,20 @@ struct EarlierFrames::Impl : Hdf5Writer {
                                header.spacing));
     }
 
-    void open_fields(const std::vector<FrameField> &fields, const std::vector<const double *> &constant_values,
-                     bool single, std::size_t frames) {
+    void open_fields(const std::vector<FrameField> &fields, const FrameRows &constant_values, bool single,
+                     std::size_t frames) {
         const Id all = own(H5Gopen2(file, "/particles/all", H5P_DEFAULT), "read /particles/all");
         H5G_info_t info;
         check(H5Gget_info(all, &info), "read /particles/all");
         if (info.nlinks != fields.size() + 1) // and the box
             refuse("it has other fields (gp_output.fields)");
-        auto constant = constant_values.begin();
+        std::size_t constant = 0;
         for (const FrameField &f : fields) {
             const std::string name = std::string("/particles/all/") + f.name;
             if (check(H5Lexists(file, name.c_str(), H5P_DEFAULT), "read " + name) == 0)
                 refuse("it lacks the field " + std::string(f.name) + " (gp_output.fields)");
             if (f.constant) {
-                const std::vector<double> values = read_row<double>(name, H5T_NATIVE_DOUBLE);
-                if (static_cast<int64_t>(values.size()) != count ||
-                    !std::equal(values.begin(), values.end(), *constant))
+                if (!has_values(name, constant_values, constant))
                     refuse("it is of another simulation: other values of " + std::string(f.name));
                 ++constant;
                 continue;
@@ -144,25 +143,55 @@ struct EarlierFrames::Impl : Hdf5Writer {
         check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, points.data()), "read " + name);
     }
 
-    void read(hsize_t frame, std::vector<std::vector<double>> &components) const {
-        auto next = components.begin();
-        for (const Element &element : elements) {
-            const std::size_t n = static_cast<std::size_t>(count), width = element.components == 1 ? 1 : 3;
-            packed.resize(n * width);
-            if (n > 0)
-                read_frame(element.value, frame, width == 1 ? std::vector<hsize_t>{n} : std::vector<hsize_t>{n, width},
-                           packed.data(), "read frame " + std::to_string(frame) + " of " + element.name);
-            for (int c = 0; c < element.components; ++c, ++next) {
-                next->resize(n);
-                for (std::size_t k = 0; k < n; ++k)
-                    (*next)[k] = packed[width * k + static_cast<std::size_t>(c)];
-            }
+    // Some values of one component.
+    const double *rows_of(hsize_t frame, std::size_t component, int64_t first, int64_t some) const {
+        std::size_t before = 0;
+        auto element = elements.begin();
+        for (; before + static_cast<std::size_t>(element->components) <= component; ++element)
+            before += static_cast<std::size_t>(element->components);
+        const std::size_t width = element->components == 1 ? 1 : 3, own = component - before;
+        const std::string what = "read frame " + std::to_string(frame) + " of " + element->name;
+        std::vector<hsize_t> start = {frame, static_cast<hsize_t>(first)}, slab = {1, static_cast<hsize_t>(some)};
+        if (width > 1) {
+            start.push_back(0);
+            slab.push_back(width);
         }
+        packed.resize(static_cast<std::size_t>(some) * width);
+        const Id place = own_space(element->value, what), memory = space(slab, slab);
+        check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, slab.data(), nullptr), what);
+        check(H5Dread(element->value, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, packed.data()), what);
+        std::vector<double> &to = unpacked[own];
+        to.resize(static_cast<std::size_t>(some));
+        for (std::size_t k = 0; k < to.size(); ++k)
+            to[k] = packed[width * k + own];
+        return to.data();
+    }
+
+    Id own_space(hid_t dataset, const std::string &what) const { return own(H5Dget_space(dataset), what); }
+
+    // Are these the values of a constant field?
+    bool has_values(const std::string &name, const FrameRows &rows, std::size_t component) const {
+        const Id dataset = open(name);
+        if (extent_of(dataset, name) != std::vector<hsize_t>{static_cast<hsize_t>(count)})
+            return false;
+        std::vector<double> there;
+        for (const RowRequest &request : row_requests(count, {1})) {
+            const std::vector<hsize_t> start = {static_cast<hsize_t>(request.first)},
+                                       slab = {static_cast<hsize_t>(request.count)};
+            there.resize(slab[0]);
+            const Id place = own_space(dataset, "read " + name), memory = space(slab, slab);
+            check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, slab.data(), nullptr),
+                  "read " + name);
+            check(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, there.data()), "read " + name);
+            if (!std::equal(there.begin(), there.end(), rows(component, request.first, request.count)))
+                return false;
+        }
+        return true;
     }
 };
 
 EarlierFrames::EarlierFrames(const std::string &path, const FrameHeader &header, const std::vector<FrameField> &fields,
-                             const std::vector<const double *> &constant_values, bool single_precision)
+                             const FrameRows &constant_values, bool single_precision)
     : impl_(new Impl) {
     require_regular_file(path);
     const Session session;
@@ -192,10 +221,17 @@ EarlierFrames::~EarlierFrames() {
     impl_.reset();
 }
 
-void EarlierFrames::read(int64_t frame, std::vector<std::vector<double>> &components, std::vector<double> &observables,
-                         std::vector<double> &wall_points) const {
+FrameRows EarlierFrames::rows(int64_t frame) const {
+    std::size_t components = 0;
+    for (const Impl::Element &element : impl_->elements)
+        components += static_cast<std::size_t>(element.components);
+    return {components, [this, frame](std::size_t component, int64_t first, int64_t count) {
+                return impl_->rows_of(static_cast<hsize_t>(frame), component, first, count);
+            }};
+}
+
+void EarlierFrames::read(int64_t frame, std::vector<double> &observables, std::vector<double> &wall_points) const {
     const Session session;
-    impl_->read(static_cast<hsize_t>(frame), components);
     impl_->read_observables(static_cast<hsize_t>(frame), observables);
     impl_->read_walls(frame, wall_points);
 }

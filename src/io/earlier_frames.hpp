@@ -14,7 +14,7 @@ class EarlierFrames {
 public:
     // Throws gp::Error(GP_E_IO) if there is no such file, or one with other particles, fields or precision.
     EarlierFrames(const std::string &path, const FrameHeader &header, const std::vector<FrameField> &fields,
-                  const std::vector<const double *> &constant_values, bool single_precision);
+                  const FrameRows &constant_values, bool single_precision);
     EarlierFrames(const EarlierFrames &) = delete;
     EarlierFrames &operator=(const EarlierFrames &) = delete;
     ~EarlierFrames();
@@ -23,9 +23,10 @@ public:
     const std::vector<int64_t> &steps() const { return steps_; }
     const std::vector<double> &times() const { return times_; }
 
-    // One frame: the components of the fields that are not constant, in order, the observables, and the points of the walls.
-    void read(int64_t frame, std::vector<std::vector<double>> &components, std::vector<double> &observables,
-              std::vector<double> &wall_points) const;
+    // One frame: the components of the fields that are not constant, in order (for another file to ask for, while HDF5 works),
+    FrameRows rows(int64_t frame) const;
+    // the observables, and the points of the walls.
+    void read(int64_t frame, std::vector<double> &observables, std::vector<double> &wall_points) const;
 
 private:
     struct Impl;

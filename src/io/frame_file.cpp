@@ -35,6 +35,19 @@ double position_unit(double spacing) {
 
 } // namespace
 
+std::vector<RowRequest> row_requests(int64_t count, const std::vector<int> &widths) {
+    std::vector<RowRequest> requests;
+    const auto most = static_cast<int64_t>(Hdf5Writer::rows_per_chunk(static_cast<hsize_t>(count)));
+    std::size_t component = 0;
+    for (const int width : widths) {
+        for (int64_t first = 0; first < count; first += most)
+            for (int k = 0; k < width; ++k)
+                requests.push_back({component + static_cast<std::size_t>(k), first, std::min(most, count - first)});
+        component += static_cast<std::size_t>(width);
+    }
+    return requests;
+}
+
 struct FrameFile::Impl : Hdf5Writer {
     std::string side_path;
     int64_t count = 0, frames = 0;
@@ -189,7 +202,7 @@ struct FrameFile::Impl : Hdf5Writer {
         return element.components == 1 ? std::vector<hsize_t>{n} : std::vector<hsize_t>{n, 3};
     }
 
-    void create(const FrameHeader &header, const std::vector<const double *> &constant_values) {
+    void create(const FrameHeader &header, const FrameRows &constant_values) {
         driver = own(H5FDregister(&store_driver()), "register the file driver");
         access = own(H5Pcreate(H5P_FILE_ACCESS), "describe the file");
         Store *const target = &store;
@@ -223,15 +236,17 @@ struct FrameFile::Impl : Hdf5Writer {
 
         Id particles = make_group("/particles", 1), all = make_group("/particles/all", 20);
         make_box(header);
-        auto values = constant_values.begin();
+        std::size_t component = 0;
         for (Element &element : elements) {
             const std::string name = element.path() + (element.constant ? "" : "/value");
             Id dataset =
                 make_dataset(name, type_of(element), shape_of(element), !element.constant, compression, element.unit);
-            if (!element.constant)
+            if (!element.constant) {
                 element.value = std::move(dataset);
-            else
-                write_constant(element, dataset, pack(element, values));
+                continue;
+            }
+            write_constant(element, dataset, constant_values, component);
+            component += static_cast<std::size_t>(element.components);
         }
         make_scene(header.scene);
         make_observables(header.observables);
@@ -300,15 +315,15 @@ struct FrameFile::Impl : Hdf5Writer {
         side.set_walls("/walls/segments", wall_segment_count, "/walls/plate", wall_point_count);
     }
 
-    void write_constant(const Element &element, hid_t dataset, const double *data) {
-        if (count == 0)
-            return;
-        check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "write " + element.name);
-        int64_t k = 0;
-        while (element.name == "id" && element.integer && element.components == 1 && k < count &&
-               data[k] == static_cast<double>(k))
-            ++k;
-        if (k == count)
+    void write_constant(const Element &element, hid_t dataset, const FrameRows &rows, std::size_t component) {
+        const std::vector<hsize_t> shape = shape_of(element);
+        bool numbered = count > 0 && element.name == "id" && element.integer && element.components == 1; // 0, 1, 2, ...
+        write_rows(element, dataset, rows, component, std::vector<hsize_t>(shape.size(), 0), shape, 0,
+                   [&](const double *values, int64_t first, int64_t some) {
+                       for (int64_t k = 0; k < some; ++k)
+                           numbered = numbered && values[k] == static_cast<double>(first + k);
+                   });
+        if (numbered)
             side.set_cells(element.path());
     }
 
@@ -333,15 +348,16 @@ struct FrameFile::Impl : Hdf5Writer {
 
     // --------------------------------------------------------------------------------------------------- frames
 
-    // One frame's values of an element as they are stored; `next` moves past its components.
-    const double *pack(const Element &element, std::vector<const double *>::const_iterator &next) {
+    // Some values of an element as they are stored; component: its first one.
+    const double *pack(const Element &element, const FrameRows &rows, const RowRequest &some) {
+        const double *const x = rows(some.component, some.first, some.count);
         if (element.components == 1)
-            return *next++;
-        const double *const x = *next++, *const y = *next++;
-        packed.resize(static_cast<size_t>(count) * 3);
+            return x;
+        const double *const y = rows(some.component + 1, some.first, some.count);
+        packed.resize(static_cast<size_t>(some.count) * 3);
         const bool rounded = unit > 0 && element.is_position();
         const auto stored = [&](double value) { return rounded ? unit * std::nearbyint(value / unit) : value; };
-        for (size_t k = 0; k < static_cast<size_t>(count); ++k) {
+        for (size_t k = 0; k < static_cast<size_t>(some.count); ++k) {
             packed[3 * k] = stored(x[k]);
             packed[3 * k + 1] = stored(y[k]);
             packed[3 * k + 2] = 0;
@@ -349,15 +365,44 @@ struct FrameFile::Impl : Hdf5Writer {
         return packed.data();
     }
 
+    // All values of an element, a row of chunks at a time. start, shape: of one frame in the dataset; particles: which of their
+    // numbers is that of particles; see: looks at what is written.
+    template <class See>
+    void write_rows(const Element &element, hid_t dataset, const FrameRows &rows, std::size_t component,
+                    std::vector<hsize_t> start, std::vector<hsize_t> shape, std::size_t particles, const See &see) {
+        const std::string what = "write " + element.name;
+        for (const RowRequest &request : row_requests(count, {1})) {
+            start[particles] = static_cast<hsize_t>(request.first);
+            shape[particles] = static_cast<hsize_t>(request.count);
+            Id place = own(H5Dget_space(dataset), what), memory = space(shape, shape);
+            check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr), what);
+            const double *const values = pack(element, rows, {component, request.first, request.count});
+            see(values, request.first, request.count);
+            check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, values), what);
+        }
+    }
+
+    // One more frame of a dataset, of which nothing is written yet.
+    void extend(hid_t dataset, std::vector<hsize_t> shape, const std::string &what) const {
+        shape.insert(shape.begin(), static_cast<hsize_t>(frames) + 1);
+        check(H5Dset_extent(dataset, shape.data()), what);
+    }
+
+    void append_rows(const Element &element, const FrameRows &rows, std::size_t component) {
+        std::vector<hsize_t> shape = shape_of(element);
+        extend(element.value, shape, "write " + element.name);
+        shape.insert(shape.begin(), 1);
+        std::vector<hsize_t> start(shape.size(), 0);
+        start[0] = static_cast<hsize_t>(frames);
+        write_rows(element, element.value, rows, component, start, shape, 1, [](const double *, int64_t, int64_t) {});
+    }
+
     void append(hid_t dataset, std::vector<hsize_t> shape, hid_t type, const void *data,
                 const std::string &what) const {
-        std::vector<hsize_t> start(shape.size() + 1, 0), extent = shape;
+        extend(dataset, shape, what);
+        std::vector<hsize_t> start(shape.size() + 1, 0);
         start[0] = static_cast<hsize_t>(frames);
         shape.insert(shape.begin(), 1);
-        extent.insert(extent.begin(), start[0] + 1);
-        check(H5Dset_extent(dataset, extent.data()), what);
-        if (std::find(shape.begin(), shape.end(), 0) != shape.end())
-            return;
         Id place = own(H5Dget_space(dataset), what), memory = space(shape, shape);
         check(H5Sselect_hyperslab(place, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr), what);
         check(H5Dwrite(dataset, type, memory, place, H5P_DEFAULT, data), what);
@@ -409,13 +454,14 @@ struct FrameFile::Impl : Hdf5Writer {
         check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, points.data()), what);
     }
 
-    void write(int64_t step_number, double seconds, const std::vector<const double *> &components,
-               const std::vector<double> &values, const std::vector<double> &points) {
-        auto next = components.begin();
+    void write(int64_t step_number, double seconds, const FrameRows &rows, const std::vector<double> &values,
+               const std::vector<double> &points) {
+        std::size_t component = 0;
         for (const Element &element : elements)
-            if (!element.constant)
-                append(element.value, shape_of(element), H5T_NATIVE_DOUBLE, pack(element, next),
-                       "write " + element.name);
+            if (!element.constant) {
+                append_rows(element, rows, component);
+                component += static_cast<std::size_t>(element.components);
+            }
         if (observable_count > 0)
             append(observables, {observable_count}, H5T_NATIVE_DOUBLE, values.data(), "write /observables/state");
         make_views();
@@ -469,8 +515,7 @@ struct FrameFile::Impl : Hdf5Writer {
 };
 
 FrameFile::FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
-                     const std::vector<const double *> &constant_values, int compression, bool single_precision,
-                     bool beside)
+                     const FrameRows &constant_values, int compression, bool single_precision, bool beside)
     : impl_(new Impl) {
     Session session;
     impl_->suffix = beside ? ".part" : "";
@@ -484,7 +529,7 @@ FrameFile::FrameFile(const std::string &path, const FrameHeader &header, std::ve
         impl_->elements.push_back({f.name, f.unit != nullptr ? f.unit : "", f.components, f.constant, f.integer, Id()});
         has_position |= impl_->elements.back().name == "position" && f.components == 2 && !f.constant;
     }
-    if (!has_position || Impl::pointers(impl_->elements, true) != constant_values.size())
+    if (!has_position || Impl::pointers(impl_->elements, true) != constant_values.components())
         throw io_failure(path, "create the file", "the fields lack a position, or a constant field its values");
     try {
         impl_->open_files();
@@ -506,12 +551,12 @@ FrameFile::~FrameFile() {
     impl_.reset();
 }
 
-void FrameFile::write(int64_t step, double time, const std::vector<const double *> &components,
-                      const std::vector<double> &observables, const std::vector<double> &wall_points) {
+void FrameFile::write(int64_t step, double time, const FrameRows &rows, const std::vector<double> &observables,
+                      const std::vector<double> &wall_points) {
     Session session;
     Impl &impl = *impl_;
     const char *const wrong = !impl.is_open                                               ? "it is closed"
-                              : Impl::pointers(impl.elements, false) != components.size() ? "wrong number of components"
+                              : Impl::pointers(impl.elements, false) != rows.components() ? "wrong number of components"
                               : impl.observable_count != observables.size()     ? "wrong number of observables"
                               : 3 * impl.wall_point_count != wall_points.size() ? "wrong number of points of walls"
                                                                                 : nullptr;
@@ -520,7 +565,7 @@ void FrameFile::write(int64_t step, double time, const std::vector<const double 
     try {
         if (impl.file < 0)
             impl.reopen();
-        impl.write(step, time, components, observables, wall_points);
+        impl.write(step, time, rows, observables, wall_points);
     } catch (...) {
         impl.wall_path.clear(); // with what was not committed
         impl.abandon();

@@ -17,6 +17,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <utility>
@@ -54,25 +56,51 @@ struct FrameHeader {
     WallLines walls = {};                     // empty: no such group
 };
 
+// Values of particles in the order of id, component by component: whole arrays, or whoever has some particles at a time. What
+// it gives is good until it is next asked for that component.
+class FrameRows {
+public:
+    using Get = std::function<const double *(std::size_t component, int64_t first, int64_t count)>;
+    FrameRows() = default;
+    FrameRows(std::vector<const double *> arrays)
+        : components_(arrays.size()),
+          get_([arrays](std::size_t component, int64_t first, int64_t) { return arrays[component] + first; }) {}
+    FrameRows(std::initializer_list<const double *> arrays) : FrameRows(std::vector<const double *>(arrays)) {}
+    FrameRows(std::size_t components, Get get) : components_(components), get_(std::move(get)) {}
+    std::size_t components() const { return components_; }
+    const double *operator()(std::size_t component, int64_t first, int64_t count) const {
+        return get_(component, first, count);
+    }
+
+private:
+    std::size_t components_ = 0;
+    Get get_;
+};
+
+// How the rows of a frame are asked for, a chunk of the file at a time. widths: the components of its fields.
+struct RowRequest {
+    std::size_t component;
+    int64_t first, count;
+};
+std::vector<RowRequest> row_requests(int64_t count, const std::vector<int> &widths);
+
 // Every call may throw gp::Error with GP_E_IO. Not for use by two threads at once; two files in two threads are fine.
 class FrameFile {
 public:
     // Replaces an existing file. (ParaView's reader takes no file whose name contains a colon.) The fields must include
-    // a "position" of two components. constant_values: one pointer per component of each constant field, in order.
+    // a "position" of two components. constant_values: the components of each constant field, in order.
     // compression: deflate level, 0 for none. single_precision: all but times, observables and positions as 32 bits; positions to
     // 1e-5 spacings. beside: the files are <path>.part and the like until publish().
     FrameFile(const std::string &path, const FrameHeader &header, std::vector<FrameField> fields,
-              const std::vector<const double *> &constant_values, int compression, bool single_precision,
-              bool beside = false);
+              const FrameRows &constant_values, int compression, bool single_precision, bool beside = false);
     FrameFile(const FrameFile &) = delete;
     FrameFile &operator=(const FrameFile &) = delete;
     ~FrameFile(); // closes; an error then is lost
 
-    // components: one pointer per component of each field that is not constant, in order, to `count` values in the
-    // order of id; observables: as many as the header has. After an error the frame is lost, the earlier ones are not, and
+    // rows: the components of each field that is not constant, in order; observables: as many as the header has. After an error the frame is lost, the earlier ones are not, and
     // the next call tries again. wall_points: x, y, z of each point of the header's walls.
-    void write(int64_t step, double time, const std::vector<const double *> &components,
-               const std::vector<double> &observables = {}, const std::vector<double> &wall_points = {});
+    void write(int64_t step, double time, const FrameRows &rows, const std::vector<double> &observables = {},
+               const std::vector<double> &wall_points = {});
 
     // Puts the files into their place. Before, those that are there are as they were.
     void publish();

@@ -167,15 +167,19 @@ struct Hdf5Writer {
         return own(H5Screate_simple(static_cast<int>(size.size()), size.data(), limit.data()), "describe an array");
     }
 
+    // An even split, so that the last chunk is not mostly empty.
+    static hsize_t rows_per_chunk(hsize_t rows) {
+        const hsize_t parts = std::max<hsize_t>(1, (rows + particles_per_chunk - 1) / particles_per_chunk);
+        return std::max<hsize_t>(1, (rows + parts - 1) / parts);
+    }
+
     // An array of rows of this shape: frames, of which there are none yet, or a single one without a frame dimension.
     Id make_dataset(const std::string &name, hid_t type, std::vector<hsize_t> shape, bool per_frame, int compression,
                     const std::string &unit) const {
         const std::string what = "create " + name;
         std::vector<hsize_t> limit = shape, chunk = shape;
-        for (hsize_t &extent : chunk) { // an even split, so that the last chunk is not mostly empty
-            const hsize_t parts = std::max<hsize_t>(1, (extent + particles_per_chunk - 1) / particles_per_chunk);
-            extent = std::max<hsize_t>(1, (extent + parts - 1) / parts);
-        }
+        for (hsize_t &extent : chunk)
+            extent = rows_per_chunk(extent);
         if (per_frame) {
             chunk.insert(chunk.begin(), shape.empty() ? times_per_chunk : 1);
             limit.insert(limit.begin(), H5S_UNLIMITED);

@@ -8,6 +8,7 @@
 #include "check.hpp"
 #include "diagnostics.hpp"
 #include "fields.hpp"
+#include "parts.hpp"
 #ifdef GP_WITH_HDF5
 #include "io/earlier_frames.hpp"
 #include "io/frame_file.hpp"
@@ -90,10 +91,10 @@ constexpr FileField file_fields[] = {
     {"fluidity", GP_FIELD_FLUIDITY, false, false, "s-1"},
 };
 
-FrameHeader header_of(const World &world) {
+FrameHeader header_of(const World &world, int64_t count) {
     const Constants &c = world.constants;
     FrameHeader header{};
-    header.count = world.particles.count;
+    header.count = count;
     header.spacing = c.spacing;
     header.gravity[0] = c.gravity.x();
     header.gravity[1] = c.gravity.y();
@@ -128,23 +129,96 @@ std::vector<double> points_of_walls(const World &world) {
     return points;
 }
 
+// The fields that are asked for, as the file has them, and the components of those that are constant and of the others.
+struct OutputFields {
+    std::vector<FrameField> fields;
+    std::vector<uint32_t> constant_bits, bits;
+
+    explicit OutputFields(uint32_t asked) {
+        asked |= GP_FIELD_ID | GP_FIELD_POSITION;
+        if (asked & GP_FIELD_VELOCITY)
+            asked |= GP_FIELD_VELOCITY;
+        for (const FileField &field : file_fields) {
+            if (!(asked & field.bits))
+                continue;
+            int components = 0;
+            for (uint32_t bit = 1; bit <= field.bits; bit <<= 1)
+                if (field.bits & bit) {
+                    ++components;
+                    (field.constant ? constant_bits : bits).push_back(bit);
+                }
+            fields.push_back({field.name, components, field.constant, field.integer, field.unit});
+        }
+    }
+    std::vector<int> widths(bool constant) const {
+        std::vector<int> widths;
+        for (const FrameField &field : fields)
+            if (field.constant == constant)
+                widths.push_back(field.components);
+        return widths;
+    }
+};
+
+// The particles of a world as rows of a frame. Of several processes the first one writes them, and asks the others for some at a
+// time: for all, in the order of row_requests, also where writing fails.
+class WorldRows {
+public:
+    WorldRows(const World &world, const OutputFields &fields, bool constant)
+        : bits_(constant ? fields.constant_bits : fields.bits), by_id_(world),
+          requests_(row_requests(by_id_.count(), fields.widths(constant))), values_(bits_.size()) {}
+    WorldRows(const WorldRows &) = delete;
+    WorldRows &operator=(const WorldRows &) = delete;
+
+    int64_t count() const { return by_id_.count(); }
+    FrameRows rows() {
+        return {bits_.size(), [this](std::size_t component, int64_t, int64_t) {
+                    take_next();
+                    return values_[component].data();
+                }};
+    }
+    void take_rest() {
+        while (next_ < requests_.size())
+            take_next();
+    }
+
+private:
+    void take_next() {
+        const RowRequest &request = requests_[next_++];
+        std::vector<double> &values = values_[request.component];
+        values.resize(static_cast<std::size_t>(request.count));
+        by_id_.read(bits_[request.component], request.first, request.count, values.data());
+    }
+
+    std::vector<uint32_t> bits_;
+    FieldsById by_id_;
+    std::vector<RowRequest> requests_;
+    std::size_t next_ = 0;
+    std::vector<std::vector<double>> values_;
+};
+
+// What the first process does with rows; all throw what it throws.
+template <class Body> void write_on_first(const World &world, const std::vector<WorldRows *> &all, const Body &body) {
+    if (!world.crossing) {
+        body();
+        return;
+    }
+    OnFirst first(*world.crossing);
+    first.run(body);
+    for (WorldRows *rows : all)
+        rows->take_rest();
+    first.finish();
+}
+
 } // namespace
 
 struct Output::Impl {
     gp_output options;
-    std::string path;           // absolute
-    std::vector<uint32_t> bits; // of the components that change, in the order of the file
-    std::vector<std::vector<double>> values;
-    std::vector<double> observables, wall_points;
-    std::unique_ptr<FrameFile> file;
+    OutputFields fields;
+    std::string path;                // absolute
+    std::unique_ptr<FrameFile> file; // of several processes, the first one's
     FrameTimes times;
 
-    void write(int64_t step, double time) {
-        std::vector<const double *> components;
-        for (const std::vector<double> &component : values)
-            components.push_back(component.data());
-        file->write(step, time, components, observables, wall_points);
-    }
+    explicit Impl(const gp_output &of) : options(of), fields(of.fields) {}
 
     // How many of the earlier frames are of the simulation as it is now.
     static int64_t frames_to_keep(const EarlierFrames &earlier, const std::string &path, const OutputPosition *left_off,
@@ -162,6 +236,29 @@ struct Output::Impl {
                              static_cast<long long>(left_off->frames));
         return left_off->frames;
     }
+
+    // earlier, constants: the values of the constant fields, for the frames that are there and for the new file.
+    void open(const std::string &given_path, const World &world, WorldRows &of_earlier, WorldRows &constants,
+              const OutputPosition *left_off) {
+        const FrameHeader header = header_of(world, constants.count());
+        const bool single = options.single_precision != 0, append = options.append != 0;
+        std::unique_ptr<EarlierFrames> earlier;
+        if (append)
+            earlier = std::make_unique<EarlierFrames>(given_path, header, fields.fields, of_earlier.rows(), single);
+        const int64_t kept = append ? frames_to_keep(*earlier, given_path, left_off, world) : 0;
+        file = std::make_unique<FrameFile>(given_path, header, fields.fields, constants.rows(), options.compression,
+                                           single, append);
+        if (!append)
+            return;
+        std::vector<double> observables, wall_points;
+        for (int64_t frame = 0; frame < kept; ++frame) {
+            earlier->read(frame, observables, wall_points);
+            file->write(earlier->steps()[frame], earlier->times()[frame], earlier->rows(frame), observables,
+                        wall_points);
+        }
+        earlier.reset();
+        file->publish();
+    }
 };
 
 namespace {
@@ -178,79 +275,44 @@ bool is_at(const OutputPosition &left_off, const std::string &path, const World 
 
 } // namespace
 
-Output::Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off)
-    : impl_(new Impl) {
+Output::Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off) {
     check_options(options);
-    impl_->options = options;
-    impl_->times.every = options.every_seconds;
+    impl_ = std::make_unique<Impl>(options);
+    Impl &impl = *impl_;
+    impl.times.every = options.every_seconds;
     std::error_code none; // of a path that names no file: opening it says so
-    impl_->path = std::filesystem::absolute(path, none).lexically_normal().string();
-    uint32_t asked = options.fields | GP_FIELD_ID | GP_FIELD_POSITION;
-    if (asked & GP_FIELD_VELOCITY)
-        asked |= GP_FIELD_VELOCITY;
-
-    std::vector<FrameField> fields;
-    std::vector<std::vector<double>> constants;
-    for (const FileField &field : file_fields) {
-        if (!(asked & field.bits))
-            continue;
-        int components = 0;
-        for (uint32_t bit = 1; bit <= field.bits; bit <<= 1) {
-            if (!(field.bits & bit))
-                continue;
-            ++components;
-            if (field.constant) {
-                constants.emplace_back(world.particles.count);
-                copy_field_by_id(world, bit, constants.back().data());
-            } else {
-                impl_->bits.push_back(bit);
-                impl_->values.emplace_back(world.particles.count);
-            }
-        }
-        fields.push_back({field.name, components, field.constant, field.integer, field.unit});
-    }
-    std::vector<const double *> constant_values;
-    for (const std::vector<double> &values : constants)
-        constant_values.push_back(values.data());
-    const FrameHeader header = header_of(world);
-    const bool single = options.single_precision != 0, append = options.append != 0;
-    const bool own_position = append && is_at(left_off, impl_->path, world);
-    if (!append && !left_off.path.empty() && is_same_file(left_off.path, impl_->path))
-        throw make_error(
-            GP_E_STATE,
-            "gp_output.append = 0: %s is the output that was open when the simulation was saved; expected 1 "
-            "to continue it, or another path",
-            path.c_str());
-    std::unique_ptr<EarlierFrames> earlier;
-    if (append)
-        earlier = std::make_unique<EarlierFrames>(path, header, fields, constant_values, single);
-    const int64_t kept = append ? impl_->frames_to_keep(*earlier, path, own_position ? &left_off : nullptr, world) : 0;
-    impl_->file =
-        std::make_unique<FrameFile>(path, header, fields, constant_values, options.compression, single, append);
-    if (append) {
-        for (int64_t frame = 0; frame < kept; ++frame) {
-            earlier->read(frame, impl_->values, impl_->observables, impl_->wall_points);
-            impl_->write(earlier->steps()[frame], earlier->times()[frame]);
-        }
-        earlier.reset();
-        impl_->file->publish();
-    } else if (options.every_seconds > 0) {
+    impl.path = std::filesystem::absolute(path, none).lexically_normal().string();
+    WorldRows of_earlier(world, impl.fields, true), constants(world, impl.fields, true);
+    const bool append = options.append != 0;
+    write_on_first(
+        world, append ? std::vector<WorldRows *>{&of_earlier, &constants} : std::vector<WorldRows *>{&constants}, [&] {
+            if (!append && !left_off.path.empty() && is_same_file(left_off.path, impl.path))
+                throw make_error(
+                    GP_E_STATE,
+                    "gp_output.append = 0: %s is the output that was open when the simulation was saved; expected 1 "
+                    "to continue it, or another path",
+                    path.c_str());
+            const bool own_position = append && is_at(left_off, impl.path, world);
+            impl.open(path, world, of_earlier, constants, own_position ? &left_off : nullptr);
+            if (own_position && left_off.every_seconds == options.every_seconds)
+                impl.times.next = left_off.next;
+            else
+                impl.times.pass(world);
+        });
+    if (world.crossing)
+        world.crossing->broadcast(&impl.times, sizeof impl.times, 0);
+    if (!append && options.every_seconds > 0)
         write(world);
-    }
-    if (own_position && left_off.every_seconds == options.every_seconds)
-        impl_->times.next = left_off.next;
-    else
-        impl_->times.pass(world);
 }
 
 Output::~Output() = default;
 
 void Output::write(const World &world) {
-    for (std::size_t k = 0; k < impl_->bits.size(); ++k)
-        copy_field_by_id(world, impl_->bits[k], impl_->values[k].data());
-    impl_->observables = state_row(measure_state(world));
-    impl_->wall_points = points_of_walls(world);
-    impl_->write(world.clock.step, world.clock.time);
+    const std::vector<double> observables = state_row(measure_state(world));
+    WorldRows rows(world, impl_->fields, false);
+    write_on_first(world, {&rows}, [&] {
+        impl_->file->write(world.clock.step, world.clock.time, rows.rows(), observables, points_of_walls(world));
+    });
 }
 
 void Output::step_done(const World &world) {
@@ -261,15 +323,13 @@ void Output::step_done(const World &world) {
 }
 
 void Output::close() {
-    impl_->file->close();
-}
-
-const FrameTimes &Output::times() const {
-    return impl_->times;
+    if (impl_->file)
+        impl_->file->close();
 }
 
 OutputPosition Output::position(const World &world) const {
-    return {impl_->path, impl_->times.every, impl_->times.next, impl_->file->frames(), world.clock.step};
+    return {impl_->path, impl_->times.every, impl_->times.next, impl_->file ? impl_->file->frames() : 0,
+            world.clock.step};
 }
 
 #else
@@ -286,9 +346,6 @@ Output::~Output() = default;
 void Output::step_done(const World &) {}
 void Output::write(const World &) {}
 void Output::close() {}
-const FrameTimes &Output::times() const {
-    return impl_->times;
-}
 OutputPosition Output::position(const World &) const {
     return {};
 }

@@ -29,7 +29,8 @@ struct FrameTimes {
 
 // Checks the options, creates the file and, with every_seconds > 0, writes the first frame; or with append continues a file:
 // as it was at left_off, if that is of this file and of the world's step, else with the frames up to the world's step.
-// Throws gp::Error; GP_E_UNSUPPORTED in a build without HDF5.
+// Throws gp::Error; GP_E_UNSUPPORTED in a build without HDF5. Of several processes each has one, and the first one the file:
+// all calls but position() are collective.
 class Output : public FrameSink {
 public:
     Output(const std::string &path, const gp_output &options, const World &world, const OutputPosition &left_off);
@@ -38,7 +39,6 @@ public:
     void write(const World &world);
     void close();
     OutputPosition position(const World &world) const;
-    const FrameTimes &times() const;
 
 private:
     struct Impl;

@@ -80,6 +80,32 @@ int64_t count_partners(const View &v, int64_t begin, int64_t end) {
     return sum;
 }
 
+// The entries of a cluster's row that have partners, some at a time: told apart without branches, which no processor foresees.
+struct PartnersOfRow {
+    static constexpr int64_t some = 32;
+    int64_t k, stop;
+    int32_t j;
+    int count;
+    int64_t entry[some];
+    int32_t particle[some];
+
+    GP_INLINE PartnersOfRow(const View &v, int64_t c)
+        : k(v.clusters.start[c]), stop(v.clusters.stop(c)), j(v.clusters.first[c]) {}
+    // False at the row's end.
+    GP_INLINE bool find_some(const View &v) {
+        if (k == stop)
+            return false;
+        count = 0;
+        for (const int64_t end = std::min(stop, k + some); k < end; ++k) {
+            j += v.clusters.step[k];
+            entry[count] = k;
+            particle[count] = j;
+            count += v.colliding[j] != 0;
+        }
+        return true;
+    }
+};
+
 // The velocity changes, and moves, of the particles that have partners.
 template <bool Moves> void find_pushes(const View &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
@@ -111,38 +137,38 @@ template <bool Moves> void find_pushes(const View &v, int64_t begin, int64_t end
                 most_crowded = std::max(most_crowded, crowded[l]);
             }
         }
-        int32_t j = v.clusters.first[c];
-        for (int64_t k = v.clusters.start[c], stop = v.clusters.stop(c); k < stop; ++k) {
-            j += v.clusters.step[k];
-            if (v.colliding[j] == 0)
-                continue;
-            const Lanes dx = x[j] - xi, dy = y[j] - yi;
-            const Lanes r2 = dx * dx + dy * dy;
-            const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
-            const double other = v.partner_density(j), others = v.colliding[j];
-            const Lanes most = choose(partners > others, partners, Lanes{} + others);
-            const auto collides = (approach > 0.0) & (r2 < v.distance2);
-            // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
-            Lanes share = where(collides, other / ((own + other) * r2));
-            if (partly)
-                share = v.clusters.seen(share, k);
-            Lanes random = approach;
-            if (Moves && v.crowded[j] + most_crowded > 0 && v.pressure[j] > 0 && !(v.asleep && v.asleep[j])) {
-                const Lanes mean = -0.5 * ((lxx + v.lxx[j]) * dx * dx + (shear + (v.lxy[j] + v.lyx[j])) * dx * dy +
-                                           (lyy + v.lyy[j]) * dy * dy);
-                const Lanes excess = (0.5 / full_crowding) * (crowded + v.crowded[j]), one = Lanes{} + 1.0;
-                const Lanes explained =
-                    where((mean > 0.0) & (pi > 0.0) & (excess > 0.0),
-                          choose(mean < approach, mean, approach) * choose(excess < one, excess, one));
-                const Lanes moves = share * explained;
-                su -= moves * dx;
-                sv -= moves * dy;
-                random -= explained;
+        PartnersOfRow row(v, c);
+        while (row.find_some(v))
+            for (int e = 0; e < row.count; ++e) {
+                const int64_t k = row.entry[e];
+                const int32_t j = row.particle[e];
+                const Lanes dx = x[j] - xi, dy = y[j] - yi;
+                const Lanes r2 = dx * dx + dy * dy;
+                const Lanes approach = (ui - vx[j]) * dx + (vi - vy[j]) * dy;
+                const double other = v.partner_density(j), others = v.colliding[j];
+                const Lanes most = choose(partners > others, partners, Lanes{} + others);
+                const auto collides = (approach > 0.0) & (r2 < v.distance2);
+                // Approach over r^2: of the speed u = approach / r, along e = (dx, dy) / r.
+                Lanes share = where(collides, other / ((own + other) * r2));
+                if (partly)
+                    share = v.clusters.seen(share, k);
+                Lanes random = approach;
+                if (Moves && v.crowded[j] + most_crowded > 0 && v.pressure[j] > 0 && !(v.asleep && v.asleep[j])) {
+                    const Lanes mean = -0.5 * ((lxx + v.lxx[j]) * dx * dx + (shear + (v.lxy[j] + v.lyx[j])) * dx * dy +
+                                               (lyy + v.lyy[j]) * dy * dy);
+                    const Lanes excess = (0.5 / full_crowding) * (crowded + v.crowded[j]), one = Lanes{} + 1.0;
+                    const Lanes explained =
+                        where((mean > 0.0) & (pi > 0.0) & (excess > 0.0),
+                              choose(mean < approach, mean, approach) * choose(excess < one, excess, one));
+                    const Lanes moves = share * explained;
+                    su -= moves * dx;
+                    sv -= moves * dy;
+                    random -= explained;
+                }
+                const Lanes impulse = share * random / most;
+                du -= impulse * dx;
+                dv -= impulse * dy;
             }
-            const Lanes impulse = share * random / most;
-            du -= impulse * dx;
-            dv -= impulse * dy;
-        }
         places.store(v.du, last, du);
         places.store(v.dv, last, dv);
         if (Moves) {

@@ -173,8 +173,8 @@ static const scene scenes[] = {
     {"two", coarse, two_materials, 300}, {"fluid", coarse, fluid, 300},       {"channel", channel, collapse, 300},
     {"fragments", coarse, fragments, 300}, {"handful", few, handful, 300},    {"within", coarse, wall_within, 300},
     {"thrown", blow, thrown, 200},        {"diverging", blow, thrown_hard, 200},
-    {"implicit", implicit, collapse, 60}, {"implicit_chute", implicit_incline, chute, 40}, {"implicit_box", implicit, box, 40},
-    {"implicit_drum", implicit, drum, 40}, {"implicit_two", implicit, two_materials, 30}, {"implicit_fragments", implicit, fragments, 40},
+    {"implicit", implicit, collapse, 60}, {"implicit_chute", implicit_incline, chute, 20}, {"implicit_box", implicit, box, 6},
+    {"implicit_drum", implicit, drum, 40}, {"implicit_two", implicit, two_materials, 6}, {"implicit_fragments", implicit, fragments, 40},
     {"implicit_handful", implicit_few, handful, 60},
 };
 

@@ -21,7 +21,7 @@ LAYERS = [
     ["sight"],
     ["mps_operators", "operators", "walls", "wall_lanes"],
     ["mirrors"],
-    ["world", "awake", "ledger", "undo", "volume_drift", "parts"],
+    ["world", "awake", "ledger", "undo", "volume_drift", "parts", "stretches"],
     ["stages/*"],
     ["whole"],
     ["plan", "plan_implicit", "plan_paper", "stage_rows", "mistakes", "warnings"],
