@@ -22,7 +22,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 NAME = r"[a-z][a-z0-9_]*(?:\.[a-z0-9_]+)+"
-MARK = re.compile(rf"<!--n(?P<kind>[=:])(?P<name>{NAME})(?: (?P<format>[^>]*?))?-->(?P<text>.*?)<!--/n-->", re.S)
+MARK = re.compile(rf"<!--n(?P<kind>[=:])(?P<name>{NAME})(?: (?P<format>[^>]*?))?-->(?P<text>[^<]*)<!--/n-->")
 ANY_MARK = re.compile(r"<!--\s*/?\s*n\b")
 BEGINS_LINE = re.compile(r"^[ >]*(?:[-*+] +|\d+[.)] +)?<!--")
 VALUE = re.compile(r"([+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(.*)", re.S)
@@ -93,7 +93,7 @@ class Pages:
             self.numbers[mark["name"]] = Number(mark["text"], page)
 
     def rewritten(self) -> dict[str, str]:
-        """The pages with the numbers of the reports."""
+        """The pages with the numbers of the reports; what is in the way becomes a fault."""
         return {page: MARK.sub(lambda mark: self._replaced(page, mark), text) for page, text in self.texts.items()}
 
     def _replaced(self, page: str, mark: re.Match[str]) -> str:

@@ -19,6 +19,7 @@ sys.path.insert(0, str(HERE))
 
 import matplotlib.pyplot as plt
 from granperi import _report_statistics as statistics
+from headlines import headline
 from markdown import table
 from plotting import finish
 
@@ -140,10 +141,10 @@ Written by `bench/report/report.py`; the {len(rows)} runs, {seconds:.0f} CPU s, 
   of each, with {coverage.SEEDS} runs of each spacing, drawn from the pool. The truth is the mean of the finest runs, which no report sees.
 - The stated error of the mean holds it in **{share(held)}** of them, and is at most three times the true one in
   **{share(narrow)}** (median {median:.1f} times).
-- Two more scenes, {n_later} cases, were run after bounds and shares had been chosen: it holds in **{share(held_later)}**, and is at most
-  three times the true one in **{share(narrow_later)}**.
+- Two more scenes, {n_later} cases, were run after bounds and shares had been chosen: it holds in **{headline('report.later.held', share(held_later))}**, and is at most
+  three times the true one in **{headline('report.later.narrow', share(narrow_later))}**.
 - The CPU time of a run up to twice as fine as the finest of the report is forecast within 30 % in **{within} of {of}** cases (the
-  worst is off by {100 * worst:.0f} %).
+  worst is off by {headline('report.cost.worst', share(worst))}).
 
 ![Stated against true error of the mean, one dot per report. Above the line it holds; in the grey band it is at most three times too wide](images/report_coverage.png)
 

@@ -25,10 +25,9 @@ def _collapse(results: Collection) -> list[tuple[str, str, str]]:
         one = mean(here, column) if here else None
         scatter = f"{100 * one.scatter / one.value:.1f} %" if one else NONE
         off = percent(one.value, mean(finest, column).value, 0) if one and finest else NONE
-        found += [
-            (f"scatter.{column}", f"a = 1.25, L/dl = 32: scatter of one run, {what}", scatter),
-            (f"resolution.{column}_off", f"{what}: mean against L/dl = {runs.FINEST}", off),
-        ]
+        found.append((f"scatter.{column}", f"a = 1.25, L/dl = 32: scatter of one run, {what}", scatter))
+        if column != "peak":
+            found.append((f"resolution.{column}_off", f"{what}: mean against L/dl = {runs.FINEST}", off))
     for name, result, n in (("here", here, 32), ("finest", finest, runs.FINEST)):
         text = fixed(mean(result, "bulk").value, 2) if result else NONE
         found.append((f"resolution.bulk_{name}", f"run-out of 90 % of the mass, L/dl = {n}", text))

@@ -231,7 +231,8 @@ From rest, the fluidity 0 at the base; d = 1 mm. Thinner than h_stop = (π/2) A 
 they come to rest, thicker ones flow. Heights are whole rows: the highest below 0.93 h_stop, the lowest above 1.05 h_stop.
 Below h_stop the fluidity dies away, the more slowly the nearer; "wrong" is what does not. Layers of two and three rows
 are no test of the law: they are not resolved. Measured stopping heights (Pouliquen 1999, GDR MiDi 2004) were not found as
-numbers; Kamrin & Henann (2015) derive such a height from the same law.
+numbers, but two fits to such of glass beads: they stand beside the law in [the guide](guide/fluidity.md#walls), and are higher near the
+angle of repose. Kamrin & Henann (2015) derive such a height from the same law.
 
 {layers(results)}
 

@@ -24,7 +24,6 @@ def _both_side(results: Collection) -> list[tuple[str, str, str]]:
     error = 100 * abs(default.summary["energy_error_share"]) if default else None
     return [
         ("both_side.peak", "a = 1.25, L/dl = 32, default scheme: peak y/L at 0.42 s", fixed(top)),
-        ("both_side.peak_off", "off the experiment", percent(top, ref.EXPERIMENT_PEAK)),
         ("both_side.peak_side_walls", f"the same between walls {runs.CHANNEL_WIDTH:g} m apart", fixed(beside)),
         ("both_side.experiment", "the experiment", f"{ref.EXPERIMENT_PEAK}"),
         ("both_side.ledger_error", "error of the default's energy ledger, of E0", NONE if error is None else f"{error:.2g} %"),
