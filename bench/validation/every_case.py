@@ -66,7 +66,7 @@ def section(results: Collection) -> str:
 departure is. The sections below have the numbers; CPU s are those of all runs of the row. Collapses are asked to be within so much of
 their finest run: peak and run-out of 90 % of the mass 3 % from L/dl = 32 on, 5 % at 16 and 24, run-out of 98 % 5 % from 32 on, mean
 distance from the middle (the wall) in mid-flow, at 0.1 s, 2 % at 32. Equal values on 1 to 4 ranks are tests, and their speed is in
-[performance.md](performance.md).
+[the guide](guide/mpi.md).
 
 """ + "\n".join(lines)
 
