@@ -192,7 +192,7 @@ TEST(Drum, TurnsTheSameByARateByTheHostAndByATableIsTheSame) {
     EXPECT_LT(largest, 0.05 * 0.01);
 }
 
-TEST(Turning, OfOtherSchemesHoldsTheirMaterial) {
+TEST(Drum, OfOtherSchemesHoldsItsMaterial) {
     // The implicit one on the way to its slope, and the paper's two, which let a grain into a wall by half a spacing.
     for (const int scheme : {0, 1, 2}) {
         const double spacing = Drum::radius / 10;
