@@ -65,7 +65,7 @@ MpiCrossing::~MpiCrossing() {
     int finalized = 0;
     MPI_Finalized(&finalized);
     if (finalized) {
-        cut_.release(); // its memory goes with the process
+        static_cast<void>(cut_.release()); // its memory goes with the process
         return;
     }
     cut_.reset();

@@ -19,8 +19,9 @@ inline void make_gradient(gp::World &world) {
     world.particles.give_back(false);
 }
 
-// Stress and force, of a step that is good.
+// Stress and force, of a step that is good, without what the density leaves to the force for collisions.
 inline void make_force(gp::World &world) {
+    world.crowded = {};
     gp::stages::stress(world);
     gp::stages::force(world);
     gp::accept_step(world);
