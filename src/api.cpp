@@ -10,6 +10,7 @@
 #include "granperi/gp.h"
 #include "io/checkpoint.hpp"
 #include "level.hpp"
+#include "parts.hpp"
 
 namespace {
 

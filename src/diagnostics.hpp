@@ -70,7 +70,8 @@ public:
 
 private:
     bool begun_ = false;
-    double first_x_ = 0, first_y_ = 0, mass_ = 0, x_ = 0, y_ = 0;
+    // x beside y: with the mass beside x, GCC rounds the products of x apart from the sum, and the last bit was another.
+    double first_x_ = 0, first_y_ = 0, x_ = 0, y_ = 0, mass_ = 0;
 };
 class BoxOfAll {
 public:

@@ -12,7 +12,7 @@ void require_partable(const Scene &scene) {
     if (by_number_density(scheme_of(config)))
         throw make_error(GP_E_UNSUPPORTED, "preset: several processes do not work on the paper's schemes");
     if (config.sleep != 0)
-        throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = %d: expected 0 with several processes", config.sleep);
+        throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = 1: expected 0 with several processes");
 }
 
 namespace {

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import datetime
 import hashlib
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import computer
 import results
 from run import ROOT, Program, Run, cheapest_first, list_runs
 
@@ -139,7 +141,7 @@ def run_missing(
         return 0
 
     sources = {name: source_hash(ROOT, program) for name, program in programs.items()}
-    commit = commit_of(ROOT)
+    commit, machine = commit_of(ROOT), computer.description(arguments.build)
     every = cheapest_first(studies)
     named = [run for run in every if run.name == arguments.only]
     wanted = [
@@ -164,7 +166,13 @@ def run_missing(
 
     def work(run: Run) -> None:
         data = execute(run, programs[run.program], arguments.build)
-        origin = {"program": run.program, "source": sources[run.program], "commit": commit}
+        origin = {
+            "program": run.program,
+            "source": sources[run.program],
+            "commit": commit,
+            "machine": machine,
+            "date": datetime.date.today().isoformat(),
+        }
         results.save(run, {**data, **origin}, arguments.results)
         progress.finished(run, data)
         counts[data["status"]] = counts.get(data["status"], 0) + 1

@@ -11,7 +11,7 @@ import numpy as np
 
 from run import Run
 
-FORMAT = 3  # of the files: those of another one are as if they were not there
+FORMAT = 4  # of the files: those of another one are as if they were not there
 
 
 class Result:
@@ -22,6 +22,8 @@ class Result:
         self.program: str = data["program"]
         self.source: str = data["source"]
         self.commit: str = data["commit"]
+        self.machine: str = data["machine"]
+        self.date: str = data["date"]
         self.output: str = data["output"]
         self.summary: dict[str, float] = data["summary"]
         self.tables = {

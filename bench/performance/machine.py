@@ -5,7 +5,12 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+from computer import compiler, processor
 
 CACHES = Path("/sys/devices/system/cpu/cpu0/cache")
 UNITS = {"K": 1 << 10, "M": 1 << 20, "G": 1 << 30}
@@ -19,17 +24,6 @@ def caches() -> dict[int, float]:
         if size and (entry / "type").read_text().strip() != "Instruction":
             found[int((entry / "level").read_text())] = float(size[1]) * UNITS[size[2]]
     return found
-
-
-def processor() -> str:
-    names = re.findall(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.M)
-    return names[0] if names else "unknown"
-
-
-def compiler(build: Path) -> str:
-    files = list(build.glob("CMakeFiles/*/CMakeCXXCompiler.cmake"))
-    text = files[0].read_text() if files else ""
-    return " ".join(re.findall(r'set\(CMAKE_CXX_COMPILER_(?:ID|VERSION) "([^"]*)"\)', text)) or "unknown"
 
 
 def main() -> None:

@@ -114,7 +114,7 @@ def main() -> None:
     report, images = place.report("performance.md")
     peak = measures.reference(collection, "a1.25").value["peak"] / runs.SCENES["a1.25"].length
     assert f"{peak:.3f} ±" in report, "the table of converged solutions has the peak"
-    assert "holds 0 bytes" in report and "Missing runs" in report and " nan" not in report.lower()
+    assert "holds 0 bytes" in report and "runs are missing" in report and " nan" not in report.lower()
     assert images == ["performance_growth.png"], images
     assert plots.others(place.found / "column.png", collection, ("a1.25",)), "there are points to draw"
     names = [one.name for one in cheapest_first(runs.studies())]

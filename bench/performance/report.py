@@ -15,7 +15,7 @@ import lean
 import repeated
 import runs
 import sections
-from document import bullets, missing_runs, provenance, tidy, write_report
+from document import bullets, tidy, write_report
 from measures import AIM
 from peers import ANOTHER_MACHINE
 from plots import FIGURES
@@ -64,9 +64,8 @@ ensemble against it: what is left to converge is of that order, and errors below
 
 ### a = 1.25
 
-{figure("collapse", {"collapse"}, COLLAPSE_CAPTION)}
-
-\\*: no other setting that was run is both cheaper and better (the error of one run, peak or run-out whichever is larger).
+The figure is at the head of this page. \\*: no other setting that was run is both cheaper and better (the error of one run, peak
+or run-out whichever is larger).
 
 {sections.errors(collection, "a1.25")}
 
@@ -183,14 +182,18 @@ hand.
 
 {beside.lead(collection)}
 
-Made by `scripts/performance` ([bench/performance](../bench/performance)); `scripts/performance --report-only` writes it anew from the
-results in `results/performance`. Every number is measured by a run or cited. {lean.machine(collection)}
-{provenance(collection, "scripts/performance")} Costs are CPU time, errors below {100 * AIM:g} % are the aim.
+{figure("collapse", {"collapse"}, COLLAPSE_CAPTION)}
+
+## In short
+
+Costs are CPU time, errors below {100 * AIM:g} % are the aim.
 
 {bullets(sections.in_short(collection) + lean.in_short(collection))}
 
 """
-    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n{missing_runs(collection)}")
+    said = f"Every number is measured by a run or cited. {lean.machine(collection)}"
+    end = document.footer(collection, "performance", "scripts/performance", said)
+    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n\n{end}")
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ PROGRAMS = {
         ("bench/performance/builds.py", "bench/smallest.c", "CMakeLists.txt"),
         script=True,
     ),
-    "machine": Program("bench/performance/machine.py", ("bench/performance/machine.py",), script=True),
+    "machine": Program("bench/performance/machine.py", ("bench/performance/machine.py", "bench/common/computer.py"), script=True),
 }
 
 

@@ -17,7 +17,7 @@ import sections
 import theory
 import verdicts
 from coefficients import CRITERION, SCENE
-from document import bullets, missing_runs, provenance, tidy, write_report
+from document import bullets, tidy, write_report
 from plots import FIGURES
 from results import Collection
 from run import cheapest_first
@@ -50,7 +50,7 @@ default (`collision_distance` up to 1, the largest that the library takes; `hori
 
 {bullets(verdicts.criterion(collection))}
 
-{figure("sensitivity", drawn, SENSITIVITY_CAPTION)}
+The figure is at the head of this page.
 
 The sound speed is the measure of the penalty, of bulk viscosity and of density diffusion, and sets the number of steps:
 most of what it changes is what twice or half of these four do by themselves. Collisions take what particles of a row that is
@@ -131,6 +131,8 @@ energy is made where the interior is unstable, too. Of the implicit scheme the w
 these alone: no shear modulus, no viscosity of shear.
 
 {sections.theory_of_layer(collection)}
+
+{verdicts.against_theory(collection)}
 
 The paper's schemes are far beyond the limit of their viscosity, λ dt ≤ 2 with λ of the order of μ p / (ρ δ dl²), at any
 step: |τ| ≤ μ p alone bounds what it does. They tremble the more the longer the step, and no step is calm in the sense of the
@@ -230,14 +232,14 @@ slowly, ledger error 0.007 % of E0.
 """
     head = f"""# Stability and sensitivity
 
-Made by `scripts/stability` ([bench/stability](../bench/stability)); `scripts/stability --report-only` writes it anew from the
-results in `results/stability`. Every number is measured by a run or computed from the theory that is named.
-{provenance(collection, "scripts/stability")}
+{verdicts.in_short(collection)}
 
-{bullets(verdicts.in_short(collection))}
+{figure("sensitivity", drawn, SENSITIVITY_CAPTION)}
 
 """
-    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n{missing_runs(collection)}")
+    said = "Every number is measured by a run or computed from the theory that is named."
+    end = document.footer(collection, "stability", "scripts/stability", said)
+    return tidy(f"{head}{body}\n{headlines.section(repeated.rows(collection))}\n\n{end}")
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ def cases(results: Collection) -> list[Case]:
         _at("Bagnold flow, 26°, c0 = 10 u", "1 % at h/dl = 20, 0.3 % at 40", results, ("Bagnold, c0 = 10 u",), {20: 0.01, 40: 0.003}),
         _at("Bagnold flow, 26°, c0 = 20 u", "1 % at h/dl = 20, 0.3 % at 40", results, ("Bagnold, c0 = 20 u",), {20: 0.01, 40: 0.003}),
         _at(
-            "its start, t ≤ 0.15 s", "± 2 %", results,
+            "start of Bagnold flow, t ≤ 0.15 s", "± 2 %", results,
             ("Bagnold start-up, c0 = 10 u", "Bagnold start-up, c0 = 40 u"), {20: 0.02, 40: 0.02},
         ),
         *(_chute(results, case) for case in ("chute", "chute, horizon 2.5")),

@@ -1,6 +1,8 @@
 """All figures of docs/validation.md by name."""
 from __future__ import annotations
 
+import convergence_section
+import every_case
 import fluid_sections
 import hopper_section
 import paper_figures
@@ -8,6 +10,8 @@ import physics_figures
 from plotting import Figures
 
 FIGURES: Figures = {
+    "every_case": every_case.figure,
+    "convergence": convergence_section.figure,
     "both_side": paper_figures.both_side,
     "peak_in_time": paper_figures.peak_in_time,
     "resolution": paper_figures.resolution,

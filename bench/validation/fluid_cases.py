@@ -17,7 +17,7 @@ def cases(results: Collection) -> list[Case]:
     glued = [(f"dl = d/{n}", runs.glued(n)) for n in runs.PER_GRAIN[1:]]
     return [
         _velocity("Couette cell with gravity: u/U at 1, 2, 3, 5 d, dl = d/2 to d/8", results, free),
-        _velocity("the same below a lid of glued grains, d/4 and d/8", results, glued),
+        _velocity("Couette cell below a lid of glued grains: u/U, dl = d/4 and d/8", results, glued),
         _shear(results),
         *_annular(results),
         *_inclines(results),
@@ -42,11 +42,11 @@ def _annular(results: Collection) -> list[Case]:
     found = present(results, ((f"horizon {h:g}", runs.annular(n, h)) for n, h in runs.ANNULAR if n == 4))
     return [
         worst(
-            "annular cell, dl = d/4: torque", "± 2 %", TORQUE,
+            "annular cell with fluidity, dl = d/4: torque", "± 2 %", TORQUE,
             [(label, r.summary["torque"] / r.summary["torque_exact"] - 1) for label, r in found], "{percent}, {label}", spent(found),
         ),
         worst(
-            "annular cell, dl = d/4: velocity", f"± {VELOCITY:g}", VELOCITY,
+            "annular cell with fluidity, dl = d/4: velocity", f"± {VELOCITY:g}", VELOCITY,
             [(label, r.summary["profile"]) for label, r in found], "{off:.3f}, {label}", None,
         ),
     ]  # fmt: skip
@@ -66,7 +66,7 @@ def _inclines(results: Collection) -> list[Case]:
                 wrong[flows].append(f"{angle}°, dl = d/{n}, {rows} rows")
     names = {
         False: (f"layers of {LEAST_ROWS} rows and more on 22 to 28°, below 0.93 h_stop", "stop"),
-        True: ("the same above 1.05 h_stop", "flow"),
+        True: (f"layers of {LEAST_ROWS} rows and more on 22 to 28°, above 1.05 h_stop", "flow"),
     }
     made = []
     for flows, (name, asked) in names.items():

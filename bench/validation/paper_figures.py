@@ -163,9 +163,9 @@ def peak_in_time(path: Path, results: Collection) -> bool:
         series = result.tables["series"]
         color, line = STYLES[key]
         upper.plot(series["time"], series["peak_height"] / ref.WIDTH, color=color, linestyle=line, label=label_of(key))
-    lines = {2.2: ":", 3.0: "--", 4.0: "-"}
+    lines = {2.2: "--", 4.0: "-"}
     for scheme, horizons in runs.HORIZON_STUDY.items():
-        for horizon in horizons:
+        for horizon in (min(horizons), max(horizons)):
             result = results(runs.horizon_run(scheme, horizon))
             if result:
                 series = result.tables["series"]
@@ -195,6 +195,8 @@ def resolution(path: Path, results: Collection) -> bool:
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5), layout="constrained")
     drawn = False
     for scheme, all_r in runs.RESOLUTION_STUDY.items():
+        if len(all_r) == 1:
+            continue
         found = [(r, results(runs.resolution_run(scheme, r))) for r in all_r]
         found = [(r, result) for r, result in found if result]
         if not found:

@@ -33,13 +33,19 @@ OF_CALL = {"gp_add_plate.plate": "the plate", "gp_plate_init.plate": "receives t
            "gp_load_mpi.sim": "receives the simulation; NULL after an error",
            "gp_destroy.sim": "the simulation, or NULL", "gp_add_material.material": "the material",
            "gp_add_particles.vx": "m/s, shape (n), finite, or NULL with vy: at rest", "gp_add_particles.vy": "m/s, shape (n), finite",
-           "gp_step.n": "number of steps; >= 0", "gp_get_interface.x": "m, shape (n); receives the positions",
+           "gp_step.n": "number of steps; >= 0", "gp_add_particles.n": "length of the arrays; >= 1", "gp_get_interface.x": "m, shape (n); receives the positions",
            "gp_has_feature.name": "e.g. \"hdf5\"", "gp_add_material.id": "receives its number; may be NULL"}
 PYTHON = {"gp_create": "Simulation", "gp_destroy": "Simulation.close", "gp_load_file": "Simulation.load", "gp_copy_field":
           "Simulation.field", "gp_get_particles": "Simulation.view", "gp_get_plate_load": "Simulation.plate_load",
           "gp_output_open": "Simulation.output", "gp_output_write": "Output.write", "gp_output_close": "Output.close",
           "gp_has_feature": "has_feature", "gp_config_init": "Config", "gp_material_init": "Material", "gp_column_init": "Column",
           "gp_plate_init": "Plate"}
+BEFORE = "Before the first step; after it GP_E_STATE."
+HDF5 = "Of a build with HDF5 (gp_has_feature); without it GP_E_UNSUPPORTED."
+RESTRICTIONS = {"gp_add_material": BEFORE, "gp_add_column": BEFORE, "gp_add_particles": BEFORE, "gp_add_plate": BEFORE,
+                "gp_save": HDF5, "gp_load_file": HDF5, "gp_output_open": HDF5,
+                "gp_set_plate_motion": "A plate under a normal_pressure does not turn.",
+                "gp_run": "Each end is another run, since the last steps are shortened for it: look on the way by an output or a callback."}
 # Any status but these needs a reason of the call's own.
 GENERAL = {"GP_E_ARGUMENT": "an argument is missing, not finite, out of range or inconsistent",
            "GP_E_STATE": "from inside a callback, but for calls that read, save, write to the open output or drive plates and gravity",
@@ -84,8 +90,14 @@ def errors_of(function, doc, roles):
     return [*lines, ""]
 
 
+def restrictions_of(name, roles):
+    words = RESTRICTIONS.get(name)
+    return [".. rubric:: Restrictions", "", text.linked(words, roles), ""] if words else []
+
+
 def example_of(pattern, places, language):
-    """(code, where it is from): the lines around the first use of a pattern, of the shortest example or page of the guide that has it."""
+    """(code, where it is from): the lines around the first use of a pattern, of the shortest example or page of the guide that has it
+    and is more than some lines."""
     found = []
     for directory, end in places:
         for file in sorted(os.listdir(os.path.join(ROOT, directory))):
@@ -93,15 +105,19 @@ def example_of(pattern, places, language):
                 continue
             with open(os.path.join(ROOT, directory, file), encoding="utf-8") as source:
                 content = source.read()
-            pieces = [content] if end != ".md" else re.findall(r"^```%s\n(.*?)^```" % language, content, re.S | re.M)
+            if end == ".md":
+                pieces = [piece for fails, piece in re.findall(r"^(<!-- block: fails.*?-->\n)?```%s\n(.*?)^```" % language, content,
+                                                               re.S | re.M) if not fails]
+            else:
+                pieces = [content]
             for piece in pieces:
                 lines = piece.split("\n")
                 use = next((k for k, line in enumerate(lines) if re.search(pattern, line)), None)
                 if use is not None:
-                    found.append((file.startswith("example."), len(lines), lines, use, directory, file))
+                    found.append((file.startswith("example."), len(lines) < 8, len(lines), lines, use, directory, file))
     if not found:
         return None
-    _, _, lines, use, directory, file = min(found, key=lambda one: one[:2])
+    *_, lines, use, directory, file = min(found, key=lambda one: one[:3])
     return excerpt(lines, use), "/%s" % directory + "/" + file if directory.startswith("examples") else \
         "/index" if file == "README.md" else "/guide/" + file[:-3]
 

@@ -108,7 +108,8 @@ def of_function(function, roles, shared, callbacks, of_fortran):
     signature = "%s%s(%s)" % (c_type(function.result), function.name, parameters_of(function))
     return [*text.titled(function.name), ".. c:function:: " + signature.replace("  ", " "), "", *text.indented(doc), "",
             *c_calls.argument_table(function, roles), *c_calls.errors_of(function, shared.doc, roles),
-            *c_calls.example_lines(function), *c_calls.elsewhere(function, of_fortran)]
+            *c_calls.example_lines(function), *c_calls.restrictions_of(function.name, roles),
+            *c_calls.elsewhere(function, of_fortran)]
 
 
 def comments_of(header):

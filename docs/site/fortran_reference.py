@@ -107,7 +107,7 @@ def page_of(name, procedure, header, roles):
         lines += [".. rubric:: In C", "", ":c:func:`%s` does the same:" % same, "", *text.paragraphs(comment, roles), "",
                   *c_calls.errors_of(functions[same], comment, roles)]
     lines += fortran_calls.example_lines(name, procedure.kind == "function")
-    return lines + (c_calls.in_python(same) if same else [])
+    return lines + ([*c_calls.restrictions_of(same, roles), *c_calls.in_python(same)] if same else [])
 
 
 def simulation_pages(statements, header, roles):

@@ -1,6 +1,7 @@
 """What the page of a Python call has: syntax, arguments with type, default, unit and range, errors, an example, other languages."""
 import inspect
 import re
+import textwrap
 
 import c_calls
 import docstrings
@@ -43,7 +44,7 @@ def prose(words, known):
     lines = []
     for paragraph in words.split("\n\n"):
         if paragraph.startswith("    "):
-            lines += [".. code-block:: python", "", *text.indented(docstrings.textwrap.dedent(paragraph).split("\n")), ""]
+            lines += [".. code-block:: python", "", *text.indented(textwrap.dedent(paragraph).split("\n")), ""]
         else:
             lines += [linked(" ".join(paragraph.split()), known), ""]
     return lines

@@ -86,6 +86,11 @@ def head_of(name, kind):
     return doc
 
 
+def papers_of(lines):
+    """Where the papers are named that gp.h has by number."""
+    return ["[1] to [4] are named in :doc:`/reference/c/index`.", ""] if any(re.search(r"\[\d\]", line) for line in lines) else []
+
+
 def parameter_table(name, kind):
     from granperi._reference import MEANINGS
 
@@ -101,7 +106,7 @@ def parameter_table(name, kind):
         if signature:
             cells.append(text.escape(default.group(1).strip('"')) if default else "")
         lines.append("   * - " + "\n     - ".join([*cells, text.escape(words)]))
-    return [*lines, ""]
+    return [*lines, "", *papers_of(lines)]
 
 
 def class_page(name, kind, known):
@@ -143,7 +148,7 @@ def enumeration_page(name, kind, meanings, known):
     for member in kind:
         said = FIELD_MEANINGS[member.name.lower()] if name == "Field" else meanings.get(CONSTANTS[name] + member.name, "")
         lines += ["   * - ``%s``" % member.name, "     - %s" % text.escape(" ".join(said.split()))]
-    return [*lines, ""]
+    return [*lines, "", *papers_of(lines)]
 
 
 def exceptions_page(names, granperi):

@@ -8,8 +8,9 @@
  *   gp_copy_field      the first process gets all, in the order of id; the others pass NULL and n = 0;
  *   gp_set_log         messages come on the first process; those about a running flow (gp_set_log) do not come;
  *   callbacks          are called on each process, and have to return the same everywhere.
- * States, loads, surfaces and interfaces are those of the whole, on every process; for them, for gp_save and for frames the first
- * process puts the whole together, with about 300 bytes for each particle. Files are written by the first process, in the
+ * States, loads, surfaces and interfaces are those of the whole, on every process; for them and for frames the first process needs
+ * about 120 bytes for each particle of the whole. At the first step, for gp_save and gp_load_mpi it puts the whole together, with
+ * about 700. Files are written by the first process, in the
  * layout of a process alone: either goes on from the other's, on any number of processes.
  *
  * Positions, velocities, stresses, loads and the clock are the same bits on any number of processes and threads; the energies

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of several processes: mpi_test.py same_values|restarts|program|kill, with the programs' paths as options."""
+"""Tests of several processes: mpi_test.py same_values|restarts|program|kill|memory, with the programs' paths as options."""
 import argparse
 import os
 import pathlib
@@ -94,6 +94,20 @@ class Tests:
                                     (("first.h5", "--end", 1, "--what"), "no such option")):
             result = self.run(2, program, *arguments)
             self.check(result.returncode != 0 and result.stderr.count(expected) == 1, f"{expected}, once", result)
+
+    def memory(self):
+        """What states and frames take on the first process, per particle of the whole: it had all of each, some 500 bytes."""
+        taken = []
+        for particles in 40_000, 200_000:
+            result = self.run(2, self.options.memory, particles, "memory.h5")
+            if result.returncode != 0:
+                print(result.stdout[-2000:], result.stderr[-2000:])
+                sys.exit(77 if "exit code: 77" in result.stderr.lower() or result.returncode == 77 else 1)
+            taken.append((particles, *map(float, result.stdout.split())))
+        for k, what in (1, "state"), (2, "frame"):
+            # Between two sizes: what is the same for any size falls out.
+            each = (taken[1][k] - taken[0][k]) / (taken[1][0] - taken[0][0])
+            self.check(each < 250, f"a {what} takes {each:.0f} bytes for each particle more")
 
     def start(self, ranks, *arguments):
         return subprocess.Popen(self.command(ranks, *arguments), cwd=self.folder, env=ENVIRONMENT, text=True,
@@ -194,11 +208,12 @@ class Tests:
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("check", choices=["same_values", "restarts", "program", "kill"])
+    parser.add_argument("check", choices=["same_values", "restarts", "program", "kill", "memory"])
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--same-values")
     parser.add_argument("--restarts")
     parser.add_argument("--program")
+    parser.add_argument("--memory")
     parser.add_argument("--kills", type=int, default=4)
     options = parser.parse_args()
     if h5py is None and options.check in ("program", "kill"):
