@@ -70,6 +70,7 @@ def check_by_hand():
         shutil.copytree(ROOT / "docs", copy / "docs", ignore=shutil.ignore_patterns("*.png"))
         readme = pages.texts["README.md"]
         mark = next(headlines.MARK.finditer(readme))
+        shutil.copyfile(ROOT / "CHANGELOG.md", copy / "CHANGELOG.md")
         (copy / "README.md").write_text(readme[:mark.start("text")] + "7" + readme[mark.end("text"):], encoding="utf-8")
         with contextlib.redirect_stderr(io.StringIO()) as said:
             assert NUMBERS.main(["--check"], copy) == 1
