@@ -116,6 +116,6 @@ class Pages:
 
 
 def read(root: Path) -> Pages:
-    """README.md and the pages of docs."""
-    paths = [root / "README.md", *sorted((root / "docs").rglob("*.md"))]
+    """README.md, CHANGELOG.md and the pages of docs."""
+    paths = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").rglob("*.md"))]
     return Pages({path.relative_to(root).as_posix(): path.read_text(encoding="utf-8") for path in paths})

@@ -36,12 +36,13 @@ def _collapse(results: Collection) -> list[tuple[str, str, str]]:
 
 def _implicit(results: Collection) -> list[tuple[str, str, str]]:
     """CPU time per simulated second, of the deposits that are looked at while they rest."""
-    default = [rest for rest in runs.rests_of(runs.SCHEMES["default"]) if rest.resolution == 16]
+    scheme = runs.SCHEMES["default"]
+    default = [rest for rest in runs.rests_of(scheme) if rest.resolution == 16 and rest.cfl == scheme.own_cfl]
     base = [result.cpu / rest.end for rest in default if (result := results(rest.run))]
     costs = [
         result.cpu / rest.end / base[0]
         for rest in runs.rests_of(runs.SCHEMES["implicit"])
-        if base and (result := results(rest.run))
+        if base and rest.resolution == 16 and (result := results(rest.run))
     ]
     least, most = (f"{one:.0f}" for one in (min(costs), max(costs))) if costs else (NONE, NONE)
     return [

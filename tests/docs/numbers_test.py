@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """The numbers that pages repeat are those of the reports: in the repository as it is, and what is wrong in one edited by hand is found."""
+import contextlib
 import importlib.machinery
 import importlib.util
+import io
 import pathlib
 import shutil
 import sys
@@ -68,8 +70,11 @@ def check_by_hand():
         shutil.copytree(ROOT / "docs", copy / "docs", ignore=shutil.ignore_patterns("*.png"))
         readme = pages.texts["README.md"]
         mark = next(headlines.MARK.finditer(readme))
+        shutil.copyfile(ROOT / "CHANGELOG.md", copy / "CHANGELOG.md")
         (copy / "README.md").write_text(readme[:mark.start("text")] + "7" + readme[mark.end("text"):], encoding="utf-8")
-        assert NUMBERS.main(["--check"], copy) == 1
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            assert NUMBERS.main(["--check"], copy) == 1
+        assert mark["name"] in said.getvalue()
         NUMBERS.write(headlines.read(copy), copy)
         assert (copy / "README.md").read_text(encoding="utf-8") == readme and NUMBERS.main(["--check"], copy) == 0
 

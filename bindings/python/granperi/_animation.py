@@ -8,6 +8,7 @@ from typing import Any, Callable
 
 import numpy as np
 
+from ._drawing import STYLE, bounds_of, colour_bar, colours_of, draw_particles, drawable, plt, scene_axes, surface_line, time_text
 from ._errors import ArgumentError, ArgumentTypeError
 from ._result import LiveSnapshot, Result, Snapshot
 from ._simulation import Simulation
@@ -34,10 +35,8 @@ class _Drawn:
     """What one picture of the animation needs, copied."""
 
     def __init__(self, shot: Snapshot, name: str):
-        from . import plot
-
         self.time, self.x, self.y, self.values = shot.time, shot.x, shot.y, np.asarray(shot.field(name), dtype=float)
-        self.bounds, self.line, self.plates = plot._bounds(shot), plot._surface_line(shot), shot.plate_lines()
+        self.bounds, self.line, self.plates = bounds_of(shot), surface_line(shot), shot.plate_lines()
         self.spacing = shot.spacing
 
 
@@ -78,20 +77,18 @@ def animate(source: Any, path: "str | os.PathLike[str]", name: str = "speed", t_
     if not (isinstance(fps, int) and 1 <= fps <= 120):
         raise ArgumentError(f"fps = {fps!r}: expected a whole number from 1 to 120")
     writer = _writer(path, fps)
-    from . import plot
-
     drawn = _shots(source, name, t_end, every, progress)
     if not drawn:
         raise ArgumentError("there are no frames to show")
     bounds = np.array([one.bounds for one in drawn])
     limits = bounds[:, 0].min(), bounds[:, 1].max(), bounds[:, 2].min(), bounds[:, 3].max()
-    colours = plot._colours(name, np.concatenate([one.values for one in drawn]))
-    with plot.plt.rc_context(plot._STYLE):
-        axes = plot._scene_axes(None, limits, bar=True)
+    colours = colours_of(name, np.concatenate([one.values for one in drawn]))
+    with plt.rc_context(STYLE):
+        axes = scene_axes(None, limits, bar=True)
     figure = axes.figure
     first = drawn[0]
-    discs = plot._draw_particles(axes, first.x, first.y, first.values, first.spacing, colours)
-    plot._colour_bar(axes, discs, name, colours[2])
+    discs = draw_particles(axes, first.x, first.y, first.values, first.spacing, colours)
+    colour_bar(axes, discs, name, colours[2])
     line, = axes.plot([], [], color="crimson", linewidth=1.5)
     plates = [axes.plot([], [], color="black", linewidth=2)[0] for _ in first.plates]
     show = _updater(axes, discs, line, plates, colours)
@@ -104,18 +101,16 @@ def animate(source: Any, path: "str | os.PathLike[str]", name: str = "speed", t_
         for one in drawn:
             show(one)
             writer.grab_frame()
-    plot.plt.close(figure)
+    plt.close(figure)
 
 
 def _updater(axes, discs, line, plates, colours) -> Callable[[_Drawn], None]:
-    from . import plot
-
     def show(one: _Drawn) -> None:
         discs.set_offsets(np.column_stack([one.x, one.y]))
-        discs.set_array(plot._drawable(one.values, colours[1]))
+        discs.set_array(drawable(one.values, colours[1]))
         line.set_data(*one.line)
         for plate, points in zip(plates, one.plates):
             plate.set_data(*points.T)
-        plot._time_text(axes, one.time)
+        time_text(axes, one.time)
 
     return show

@@ -78,7 +78,8 @@ class Engine:
         self.closed = False
         self.running = 0  # depth of step() and run(): 1 also while their callbacks run
         self.exports: set[int] = set()  # of raw arrays of this simulation's memory
-        self.output_pid = 0  # of the process that has opened an output
+        self.output: Any = None  # the open Output
+        self.output_pid = 0  # of the process that has opened it
         self.callback: Callable[[Any], Any] | None = None
         self.on_look: Callable[[], None] | None = None
         self.timers: list[Timer] = []

@@ -11,13 +11,13 @@ from ._state import State
 from ._timer import Timer
 
 if TYPE_CHECKING:
-    from ._simulation import Simulation
+    from ._simulation_reading import SimulationReading
 
 REST_EVERY = 10  # steps between looks at rest, each 2 to 5 % of a step
 
 
 @contextlib.contextmanager
-def _timed(sim: "Simulation", timer: Timer) -> Iterator[None]:
+def _timed(sim: "SimulationReading", timer: Timer) -> Iterator[None]:
     timers = sim._engine.timers
     timers.append(timer)
     try:
@@ -26,7 +26,7 @@ def _timed(sim: "Simulation", timer: Timer) -> Iterator[None]:
         timers.remove(timer)
 
 
-def end_of(sim: "Simulation", name: str, t_end: float) -> float:
+def end_of(sim: "SimulationReading", name: str, t_end: float) -> float:
     """The end of a run [s] as a number, or the error on it."""
     t_end, now = number(name, t_end), sim.time
     if not (math.isfinite(t_end) and t_end >= now):
@@ -34,7 +34,7 @@ def end_of(sim: "Simulation", name: str, t_end: float) -> float:
     return t_end
 
 
-def run_to_rest(sim: "Simulation", t_end: float) -> bool:
+def run_to_rest(sim: "SimulationReading", t_end: float) -> bool:
     """True if the material rests, False where t_end [s] or the callback has ended the run."""
     with sim._engine.locked("run_until_rest") as engine:
         engine.watch.rest_every = REST_EVERY
@@ -45,7 +45,7 @@ def run_to_rest(sim: "Simulation", t_end: float) -> bool:
         return bool(engine.watch.rested)
 
 
-def frames(sim: "Simulation", t_end: float, every: float, until_rest: bool, frame_before: float) -> Iterator[State]:
+def frames(sim: "SimulationReading", t_end: float, every: float, until_rest: bool, frame_before: float) -> Iterator[State]:
     """The states after the first step at or past each multiple of `every` [s] after frame_before [s], and at the end."""
     def go_on(name: str) -> bool:
         """To the next frame or the end; False if the run is over."""

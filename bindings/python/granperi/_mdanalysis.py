@@ -1,14 +1,11 @@
 """Result files for MDAnalysis, whose own reader of H5MD knows no lengths in metres."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import MDAnalysis
 import numpy as np
 from MDAnalysis.coordinates.base import ReaderBase
-
-if TYPE_CHECKING:
-    from ._result import Result
 
 
 class _Reader(ReaderBase):
@@ -17,7 +14,7 @@ class _Reader(ReaderBase):
     format = "GRANPERI"
     units = {"time": None, "length": None, "velocity": None}
 
-    def __init__(self, result: "Result", **more: Any):
+    def __init__(self, result: Any, **more: Any):
         super().__init__("granperi", convert_units=False)
         self._result = result
         self.n_frames, self.n_atoms = len(result), len(result[0].x)
@@ -45,8 +42,8 @@ class _Reader(ReaderBase):
         """The result is closed by whom it belongs to."""
 
 
-def universe(result: "Result") -> Any:
-    """See Result.universe."""
+def universe(result: Any) -> Any:
+    """See Result.universe: result is a Result."""
     n = len(result[0].x)
     columns = result._read("column", 0) if result.has("column") else np.zeros(n, dtype=int)
     labels, segment = np.unique(columns, return_inverse=True)

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Iterable, Iterator
+from typing import Iterable, Iterator
 
 from ._engine import Engine
 from ._enums import field_bits, field_names
@@ -11,18 +11,13 @@ from ._library import ffi, lib
 from ._objects import _initialised
 from ._state import State
 
-if TYPE_CHECKING:
-    from ._simulation import Simulation
-
 DEFAULT_FIELDS = ("column", "position", "velocity", "pressure", "stress", "shear_rate", "inertial_number")
 
 
 class Output:
     """An open HDF5 file of frames. `with` or close() closes it."""
 
-    def __init__(self, sim: "Simulation", engine: Engine, path, every, fields, compression, single_precision,
-                 append):
-        self._sim: "Simulation | None" = sim
+    def __init__(self, engine: Engine, path, every, fields, compression, single_precision, append):
         self._engine = engine
         self.path = os.fspath(path) if isinstance(path, (str, bytes, os.PathLike)) else path
         encoded = path_bytes("path", path)
@@ -42,7 +37,7 @@ class Output:
     @property
     def closed(self) -> bool:
         """Whether the file is closed."""
-        return self._sim is None or self._sim._output is not self
+        return self._engine.output is not self
 
     def write(self) -> None:
         """Writes a frame of the present state.
@@ -99,18 +94,16 @@ class Output:
             self._close_locked()
 
     def _close_locked(self) -> None:
-        sim, self._sim = self._sim, None
-        if sim is None:
-            return
+        engine = self._engine
+        engine.output = None
         try:
-            check(lib.gp_output_close(self._engine.sim))
+            check(lib.gp_output_close(engine.sim))
         except StateError:
-            sim._output, self._sim = self, sim  # inside a callback: it is still open
+            engine.output = self  # inside a callback: it is still open
             raise
         finally:
-            if self._sim is None:
-                sim._output = None
-                self._engine.output_pid = 0
+            if engine.output is None:
+                engine.output_pid = 0
 
     def __enter__(self) -> "Output":
         return self

@@ -15,7 +15,7 @@ from ._tables import as_html, write_csv
 from ._timer import Timer, interval
 
 if TYPE_CHECKING:
-    from ._simulation import Simulation
+    from ._simulation_reading import SimulationReading
 
 MEANS = ("fx", "fy", "torque_pivot")  # over the time since the sample before
 IMPULSES = ("impulse_x", "impulse_y", "impulse_torque")
@@ -35,7 +35,7 @@ class Probe:
     impulse_x, impulse_y, impulse_torque, dx, dy and angle are those of Load.
     """
 
-    def __init__(self, sim: "Simulation", points: Any, fields: Any, plates: Any, every: float, radius: float | None):
+    def __init__(self, sim: "SimulationReading", points: Any, fields: Any, plates: Any, every: float, radius: float | None):
         x, y = points_of("points", np.empty((0, 2)) if points is None else points)
         self.points = np.column_stack([x, y])
         if not np.isfinite(self.points).all():
@@ -74,7 +74,7 @@ class Probe:
         if len(self._rows) > 1:
             self._fill_means(self._rows[-2], row)
 
-    def _fields_of(self, sim: "Simulation") -> np.ndarray:
+    def _fields_of(self, sim: "SimulationReading") -> np.ndarray:
         found = np.full((len(self.fields), len(self.points)), np.nan)
         if not found.size:
             return found

@@ -3,12 +3,10 @@ from __future__ import annotations
 
 import importlib.util
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ._engine import Engine
 from ._library import ffi, lib
-
-if TYPE_CHECKING:
-    from ._simulation import Simulation
 
 
 def has_tqdm() -> bool:
@@ -34,10 +32,10 @@ def new_bar(**options: Any) -> Any:
 
 
 class Progress:
-    """with Progress(sim, t_end): a bar over simulated time while the block runs; nothing if not shown."""
+    """with Progress(engine, t_end): a bar over simulated time while the block runs; nothing if not shown."""
 
-    def __init__(self, sim: "Simulation", t_end: float, shown: bool = True):
-        self._sim, self._t_end, self._shown = sim, t_end, shown
+    def __init__(self, engine: Engine, t_end: float, shown: bool = True):
+        self._engine, self._t_end, self._shown = engine, t_end, shown
         self._bar: Any = None
 
     def __enter__(self) -> "Progress":
@@ -45,13 +43,13 @@ class Progress:
             return self
         self._bar = new_bar(total=self._t_end, initial=self._time(), unit="s", desc="simulated",
                          bar_format="{desc} {n:.3f}/{total:g} s |{bar}| {percentage:3.0f} % [{elapsed}<{remaining}]")
-        self._before = self._sim._engine.on_look
-        self._sim._engine.on_look = self._look
+        self._before = self._engine.on_look
+        self._engine.on_look = self._look
         return self
 
     def _time(self) -> float:
         time = ffi.new("double *")
-        lib.gp_get_clock(self._sim._engine.sim, time, ffi.NULL, ffi.NULL)
+        lib.gp_get_clock(self._engine.sim, time, ffi.NULL, ffi.NULL)
         return time[0]
 
     def _look(self) -> None:
@@ -65,7 +63,7 @@ class Progress:
 
     def __exit__(self, *error: object) -> None:
         if self._bar is not None:
-            self._sim._engine.on_look = self._before
-            if not self._sim.closed:
+            self._engine.on_look = self._before
+            if not self._engine.closed:
                 self._update()
             self._bar.close()

@@ -8,7 +8,7 @@ import os
 import shutil
 import tempfile
 import time
-from typing import TYPE_CHECKING, Iterator
+from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from ._state import History
 
 if TYPE_CHECKING:
     from ._probe import Probe
-    from ._scene import Scene
 
 CHECKPOINT_SECONDS = 60.0
 GO_ON = "go on with it by resume=True (--resume)"
@@ -119,9 +118,9 @@ class _Saving:
         self._sim._engine.on_look = self._before
 
 
-def record_scene(scene: "Scene", path: "str | os.PathLike[str]", progress: bool, overwrite: bool, resume: bool,
+def record_scene(scene: Any, path: "str | os.PathLike[str]", progress: bool, overwrite: bool, resume: bool,
                  checkpoint_seconds: float) -> History:
-    """See Scene.record."""
+    """See Scene.record: scene is a Scene."""
     run = scene.run
     checkpoint_seconds = number("checkpoint", checkpoint_seconds)
     if not checkpoint_seconds > 0:
@@ -213,7 +212,7 @@ def _is_complete(history: History, end: float, until: str) -> bool:
     return bool(len(history)) and (history[-1].time >= end or until == "rest" and history[-1].at_rest)
 
 
-def _recorded(scene: "Scene", sim: Simulation, probes: "list[Probe]", place: Place, progress: bool, seconds: float,
+def _recorded(scene: Any, sim: Simulation, probes: "list[Probe]", place: Place, progress: bool, seconds: float,
               goes_on: bool = False) -> History:
     run, path = scene.run, place.in_part(place.path)
     series = [(probe, place.in_part(file)) for probe, file in zip(probes, scene.probe_files(place.path))]

@@ -4,14 +4,13 @@ from __future__ import annotations
 import html
 import os
 import re
-from typing import TYPE_CHECKING, Sequence
+from typing import Any, Sequence
 
 from ._report_runs import QUANTITIES, REST
 from ._report_svg import COLOURS, Picture, bars
 from ._state import MARKS
 
-if TYPE_CHECKING:
-    from ._report_result import Report
+Report = Any  # that of _report_result, which imports this
 
 STYLE = """
 .granperi-report { font: 16px/1.5 system-ui, sans-serif; color: #222; max-width: 62rem; margin: 0 auto; padding: 0 1rem 3rem }
@@ -30,14 +29,14 @@ NAMES = {"peak_height": "peak", "width_50": "width, 50 %", "width_90": "width, 9
          REST: "time of rest"}
 
 
-def page(report: "Report") -> str:
+def page(report: Report) -> str:
     title = html.escape(f"Error against run time: {_short(report)}")
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<title>{title}</title>\n'
             '<meta name="viewport" content="width=device-width, initial-scale=1">\n</head>\n<body>\n' + body(report)
             + "\n</body>\n</html>\n")
 
 
-def body(report: "Report") -> str:
+def body(report: Report) -> str:
     """The page without its head, as a notebook shows it."""
     parts = [f"<style>{STYLE}</style>", '<div class="granperi-report">',
              f"<h1>Error against run time: {html.escape(_short(report))}</h1>",
@@ -53,7 +52,7 @@ def body(report: "Report") -> str:
     return "\n".join(part for part in parts if part)
 
 
-def _short(report: "Report") -> str:
+def _short(report: Report) -> str:
     return os.path.basename(report.name)
 
 
@@ -61,7 +60,7 @@ def _name(name: str) -> str:
     return NAMES.get(name, name)
 
 
-def _shown(report: "Report") -> list[str]:
+def _shown(report: Report) -> list[str]:
     return [name for name in (*NAMES, *report.own) if name in report.convergence and report.scale[name] > 0]
 
 
@@ -75,7 +74,7 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]], classes: Sequence
     return f'<div class="wide"><table{" class=words" if words else ""}>' + "\n".join(lines) + "</table></div>"
 
 
-def _error_picture(report: "Report") -> str:
+def _error_picture(report: Report) -> str:
     names = _shown(report)[:8]
     if not names:
         return ""
@@ -100,7 +99,7 @@ def _error_picture(report: "Report") -> str:
         "<p>Full: run. Hollow: forecast." + (" Star: recommended." if chosen.runs == 1 else "") + "</p>")
 
 
-def _rows(report: "Report") -> str:
+def _rows(report: Report) -> str:
     names = _shown(report)
     head = ["spacing, m", "particles", "CPU s", "runs", *(_name(name) for name in names)]
     rows = [[f"{row.spacing:.4g}", str(row.particles), f"{row.cpu_seconds:.2g}", str(row.runs) if row.runs else "forecast",
@@ -108,7 +107,7 @@ def _rows(report: "Report") -> str:
     return _table(head, rows, ["" if row.runs else "forecast" for row in report.rows])
 
 
-def _verdict_row(report: "Report", name: str) -> list[str]:
+def _verdict_row(report: Report, name: str) -> list[str]:
     verdict, order = report._judged(name)
     if name not in report.convergence:
         return [_name(name), "–", "–", "–", verdict]
@@ -118,12 +117,12 @@ def _verdict_row(report: "Report", name: str) -> list[str]:
     return [_name(name), limit, f"{one.levels[-1].scatter:.2g}", order or "–", verdict]
 
 
-def _verdicts(report: "Report") -> str:
+def _verdicts(report: Report) -> str:
     return _table(["quantity", "limit of zero spacing", "scatter of one run", "observed order", "verdict"],
                   [_verdict_row(report, name) for name in (*NAMES, *report.own)], words=True)
 
 
-def _convergence_pictures(report: "Report") -> list[str]:
+def _convergence_pictures(report: Report) -> list[str]:
     pictures = []
     for colour, name in zip(COLOURS, [name for name in (*NAMES, *report.own) if name in report.convergence][:8]):
         one = report.convergence[name]
@@ -147,7 +146,7 @@ def _convergence_pictures(report: "Report") -> list[str]:
     return pictures
 
 
-def _stages(report: "Report") -> str:
+def _stages(report: Report) -> str:
     stages = sorted(((entry.name.replace("_", " "), entry.seconds) for entry in report.plan
                      if entry.kind == 0 and entry.active), key=lambda entry: -entry[1])
     total = sum(seconds for _, seconds in stages)
@@ -163,21 +162,21 @@ def _stages(report: "Report") -> str:
             "all.</p>" + bars(shown, "%", "time of each stage"))
 
 
-def _marks(report: "Report") -> str:
+def _marks(report: Report) -> str:
     rows = [_verdict_row(report, name) for name in MARKS.values() if name in report.convergence]
     return _details("Marks of the mass", "x that has 1, 5, ... % of the mass on its left, in m.",
                     _table(["mark", "limit of zero spacing", "scatter of one run", "observed order", "verdict"], rows,
                            words=True)) if rows else ""
 
 
-def _left_out(report: "Report") -> str:
+def _left_out(report: Report) -> str:
     rows = [[entry.name.replace("_", " "), "field" if entry.kind else "stage", entry.reason]
             for entry in report.plan if not entry.active]
     table = _table(["what", "kind", "why"], rows, words=True)
     return _details("What the scene leaves out", f"{len(rows)} stages and fields cost this scene nothing.", table) if rows else ""
 
 
-def _warnings(report: "Report") -> str:
+def _warnings(report: Report) -> str:
     if not report.warnings:
         return ""
     alike: dict[str, list[str]] = {}  # but for their numbers

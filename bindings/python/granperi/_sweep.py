@@ -19,7 +19,7 @@ from ._progress import new_bar, require_tqdm
 from ._result import Result
 from ._scene import Scene, scene_of
 from ._state import State
-from ._tables import as_html, require_free, shown, write_csv, write_text
+from ._tables import as_html, shown, write_csv, write_text
 
 RESULTS = tuple(name for name in State.__annotations__ if name != "wall_seconds")
 SHOWN = ("time", "n_particles", "step", "x_q05", "x_q95", "peak_height", "at_rest")

@@ -148,11 +148,12 @@ def test_output_goes_on_after_load(stepped, tmp_path):
         stepped.step(10)
         output.write()
     try:
-        output = granperi.load(tmp_path / "checkpoint").output(tmp_path / "a.h5", append=True)
+        again = granperi.load(tmp_path / "checkpoint")
+        output = again.output(tmp_path / "a.h5", append=True)
     except granperi.UnsupportedError:
         pytest.skip("this version of the library cannot go on with a file")
     with output:
-        output._sim.step(20)
+        again.step(20)
         output.write()
     with granperi.Result(tmp_path / "a.h5") as result:
         steps = [state.step for state in result.history]
