@@ -211,6 +211,8 @@ gp_status gp_save(gp_sim *sim, const char *path) {
         const auto save = [&](const World *world) {
             io::save_checkpoint(path, s, world, sim->output ? sim->output->position(s.world()) : sim->left_off);
         };
+        if (sim->output)
+            s.prepare(); // the place in the file is told by the world
         if (!s.progress().started) {
             if (s.crossing())
                 run_on_first(*s.crossing(), [&] { save(nullptr); });
@@ -276,7 +278,10 @@ gp_status gp_output_close(gp_sim *sim) {
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");
         s.sink = nullptr;
         const std::unique_ptr<io::Output> closing = std::move(sim->output);
-        on_first(s.world(), [&] { closing->close(); });
+        if (s.crossing()) // not by the world: a change of the scene before the first step leaves none
+            run_on_first(*s.crossing(), [&] { closing->close(); });
+        else
+            closing->close();
         return GP_OK;
     });
 }

@@ -182,9 +182,7 @@ gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, 
         if (left == right)
             throw make_error(GP_E_ARGUMENT, "right = %d: expected another column than left", right);
         require_stations(n, "y", y, "x", x);
-        for (int64_t k = 0; k < n; ++k)
-            if (!interface_at(s.world(), left, right, y[k], x[k]))
-                x[k] = std::numeric_limits<double>::quiet_NaN();
+        find_interface(s.world(), left, right, n, y, x);
         tell_all(s, x, n);
         return GP_OK;
     });

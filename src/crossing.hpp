@@ -12,7 +12,7 @@ namespace gp {
 
 // So far, by this process.
 struct Traffic {
-    int64_t messages = 0, bytes = 0; // about single particles, sent in steps
+    int64_t messages = 0, bytes = 0; // about single particles, sent in steps and readings
     int64_t reductions = 0, cuts = 0;
 };
 

@@ -86,7 +86,7 @@ double detached_share(const World &world, const std::vector<char> &connected); /
 // Has the material come to rest, and what moves it? gp_state.at_rest in gp.h says what that means. count, box: of all particles.
 bool is_at_rest(const World &world, double kinetic, int64_t count, const Box &box);
 
-// Interface of two bodies at height y; false where they do not touch.
-bool interface_at(const World &world, int32_t left, int32_t right, double y, double &x);
+// Interface of two bodies at heights y, n of them: x, NaN where they do not touch. y may be x.
+void find_interface(const World &world, int32_t left, int32_t right, int64_t n, const double *y, double *x);
 
 } // namespace gp

@@ -1,6 +1,7 @@
 // The shape of the material: what is connected, the interface of two bodies.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "diagnostics.hpp"
@@ -212,37 +213,49 @@ std::vector<char> connected_deposit(const World &world) {
     return connected;
 }
 
-bool interface_at(const World &world, int32_t left, int32_t right, double y, double &x) {
-    const double spacing = world.constants.spacing;
-    struct Row {
-        double x;
-        bool left;
-    };
-    std::vector<Row> row;
-    int64_t wrong = 0; // with the border left of everything: all of `left` is on the wrong side
-    for_each_stretch(world, {}, [&](const World &stretch, const char *) {
-        const Particles &p = stretch.particles;
-        for (int64_t i = 0; i < p.count; ++i)
-            if (std::abs(p.y[i] - y) <= spacing && (p.column[i] == left || p.column[i] == right)) {
-                row.push_back({p.x[i], p.column[i] == left});
-                wrong += p.column[i] == left;
-            }
-    });
-    const auto lefts = wrong;
-    if (lefts == 0 || lefts == static_cast<int64_t>(row.size()))
-        return false;
-    std::sort(row.begin(), row.end(), [](const Row &a, const Row &b) { return a.x < b.x; });
-    int64_t best = INT64_MAX;
-    bool found = false;
+namespace {
+
+struct BesideInterface {
+    double x;
+    bool left;
+};
+
+// NaN where the bodies do not touch. row: what lies at one height.
+double interface_in(std::vector<BesideInterface> &row, double spacing) {
+    const auto lefts = std::count_if(row.begin(), row.end(), [](const BesideInterface &one) { return one.left; });
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (lefts == 0 || lefts == static_cast<std::ptrdiff_t>(row.size()))
+        return none;
+    std::sort(row.begin(), row.end(), [](const BesideInterface &a, const BesideInterface &b) { return a.x < b.x; });
+    auto wrong = lefts,
+         best = std::numeric_limits<std::ptrdiff_t>::max(); // the border left of everything: all of `left`
+    double x = none;
     for (std::size_t k = 0; k + 1 < row.size(); ++k) {
         wrong += row[k].left ? -1 : 1;
         if (wrong < best) {
             best = wrong;
-            x = 0.5 * (row[k].x + row[k + 1].x);
-            found = row[k + 1].x - row[k].x < 2 * spacing; // they touch there
+            const bool touch = row[k + 1].x - row[k].x < 2 * spacing;
+            x = touch ? 0.5 * (row[k].x + row[k + 1].x) : none;
         }
     }
-    return found;
+    return x;
+}
+
+} // namespace
+
+void find_interface(const World &world, int32_t left, int32_t right, int64_t n, const double *y, double *x) {
+    const double spacing = world.constants.spacing;
+    std::vector<std::vector<BesideInterface>> rows(static_cast<std::size_t>(n));
+    for_each_stretch(world, {}, [&](const World &stretch, const char *) {
+        const Particles &p = stretch.particles;
+        for (int64_t i = 0; i < p.count; ++i)
+            if (p.column[i] == left || p.column[i] == right)
+                for (int64_t k = 0; k < n; ++k)
+                    if (std::abs(p.y[i] - y[k]) <= spacing)
+                        rows[k].push_back({p.x[i], p.column[i] == left});
+    });
+    for (int64_t k = 0; k < n; ++k)
+        x[k] = interface_in(rows[k], spacing);
 }
 
 } // namespace gp

@@ -54,7 +54,8 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
             add(i, {p.x[i], p.y[i]});
     if (!world.crossing) {
         for (int64_t i = p.count; i < p.count + world.images.count; ++i)
-            if (const int64_t source = world.images.source(i); connected[source])
+            if (const int64_t source = world.images.source(i);
+                connected[source] && is_seen_across(world, source, p.x[i]))
                 add(source, {p.x[i], p.y[i]});
     } else if (world.constants.period) {
         for_each_image(world, [&](int64_t i, double shift) {

@@ -234,6 +234,8 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
              bytes_of(p.flowing));
     optional("crowding", !viscous, "what flows keeps its volume; in the memory of stress over shape", by_number,
              bytes_of(p.crowding));
+    optional("spaced", !viscous && t.collisions, "collisions ask for what is crowded; in the acceleration's memory",
+             viscous ? by_number : "collision_distance is 0", bytes_of_all(p.spaced, p.known));
     entries.push_back(field_entry("bearing", t.diffusion || t.fluid,
                                   t.diffusion ? "density_diffusion > 0; in the acceleration's memory"
                                   : t.fluid   ? "nonlocal_amplitude > 0; in the acceleration's memory"

@@ -363,7 +363,7 @@ std::vector<gp_plan_entry> Sim::plan() const {
     entry.kind = 2;
     entry.active = 1;
     entry.name = "messages";
-    entry.reason = "sent by this process in steps; bytes: theirs; seconds: in all calls of MPI";
+    entry.reason = "sent by this process in steps and readings; bytes: theirs; seconds: in all calls of MPI";
     entry.bytes = traffic.bytes;
     entry.seconds = crossing_->waited();
     entry.calls = traffic.messages;

@@ -9,9 +9,10 @@
  *   gp_set_log         messages come on the first process; those about a running flow (gp_set_log) do not come;
  *   callbacks          are called on each process, and have to return the same everywhere.
  * States, loads, surfaces and interfaces are those of the whole, on every process; for them and for frames the first process needs
- * about 120 bytes for each particle of the whole. At the first step, for gp_save and gp_load_mpi it puts the whole together, with
- * about 700. Files are written by the first process, in the
- * layout of a process alone: either goes on from the other's, on any number of processes.
+ * about 120 bytes for each particle of the whole. At the first step, or the first reading before it, for gp_save and for gp_load_mpi
+ * it puts the whole together, with about 700, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
+ * two states do. Files are written by the first process, in the layout of a process alone: either goes on from the other's, on any
+ * number of processes.
  *
  * Positions, velocities, stresses, loads and the clock are the same bits on any number of processes and threads; the energies
  * of gp_state that are summed up in the course of a run are the same but for rounding.

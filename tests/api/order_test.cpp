@@ -81,6 +81,26 @@ TEST(Order, TheSceneIsFixedWhileAnOutputIsOpen) {
     EXPECT_EQ(sim.count(), 18);
 }
 
+// A change before the first step has left no world when the next call comes, whichever it is.
+TEST(Order, AnOutputIsClosedAndSavedBesideAfterTheSceneHasChanged) {
+    if (!has("hdf5"))
+        GTEST_SKIP() << "no HDF5 in this build";
+    for (const bool saves : {false, true}) {
+        Sim sim;
+        sim.add(make_floor());
+        sim.add(make_column(3, 3));
+        ASSERT_EQ(gp_output_open(sim, (testing::TempDir() + "granperi_changed.h5").c_str(), nullptr), GP_OK)
+            << gp_last_error();
+        EXPECT_EQ(gp_set_gravity(sim, 1, -9), GP_OK);
+        if (saves) {
+            EXPECT_EQ(gp_save(sim, (testing::TempDir() + "granperi_changed.gp").c_str()), GP_OK) << gp_last_error();
+            EXPECT_EQ(gp_set_plate_velocity(sim, 0, 0.1, 0), GP_OK);
+        }
+        ASSERT_EQ(gp_output_close(sim), GP_OK) << gp_last_error();
+        EXPECT_EQ(gp_step(sim, 1), GP_OK);
+    }
+}
+
 // ----------------------------------------------------------------------------------------------- callbacks
 
 TEST(Callbacks, MayReadDriveAndWriteButNothingElse) {

@@ -229,6 +229,28 @@ static void compare_loads(const scene *s, gp_sim *alone, gp_sim *together) {
     }
 }
 
+/* Surface, and interface of the first two columns, at some places of the whole. */
+static void compare_shapes(const scene *s, gp_sim *alone, gp_sim *together, const gp_state *whole) {
+    enum { n = 41 };
+    double at[n], a[n], b[n];
+    for (int k = 0; k < n; ++k)
+        at[k] = whole->x_left + (whole->x_right - whole->x_left) * k / (n - 1);
+    check(gp_get_surface(together, n, at, b), "gp_get_surface");
+    if (rank == 0)
+        check(gp_get_surface(alone, n, at, a), "gp_get_surface");
+    for (int k = 0; k < n && rank == 0; ++k)
+        equal(s, "surface", a[k], b[k]);
+    if (s->build != two_materials && s->build != wall_within)
+        return;
+    for (int k = 0; k < n; ++k)
+        at[k] = whole->peak_height * k / (n - 1);
+    check(gp_get_interface(together, 0, 1, n, at, b), "gp_get_interface");
+    if (rank == 0)
+        check(gp_get_interface(alone, 0, 1, n, at, a), "gp_get_interface");
+    for (int k = 0; k < n && rank == 0; ++k)
+        equal(s, "interface", a[k], b[k]);
+}
+
 static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
     static const uint32_t fields[] = {GP_FIELD_X,   GP_FIELD_Y,   GP_FIELD_VX,         GP_FIELD_VY,             GP_FIELD_PRESSURE,       GP_FIELD_DENSITY,
                                       GP_FIELD_SXX, GP_FIELD_SXY, GP_FIELD_SHEAR_RATE, GP_FIELD_NUMBER_DENSITY, GP_FIELD_FLUIDITY,       GP_FIELD_COLUMN};
@@ -249,6 +271,7 @@ static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
             }
     }
     free(theirs), free(ours);
+    compare_shapes(s, alone, together, &b);
     if (rank > 0)
         return;
     const gp_state a = state_of(alone);
@@ -291,6 +314,11 @@ static long run(const scene *s) {
                 differ(s, text, a, b), puts(gp_last_error());
         }
         compare(s, alone, together);
+        if (part == 0 && s->build == two_materials) { /* the second half under another gravity */
+            check(gp_set_gravity(together, 1.5, -9.6), "gp_set_gravity");
+            if (rank == 0)
+                check(gp_set_gravity(alone, 1.5, -9.6), "gp_set_gravity");
+        }
     }
     const long cuts = cuts_of(together);
     gp_destroy(together);
