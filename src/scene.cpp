@@ -65,7 +65,8 @@ void check_config(const gp_config &c) {
     require_choice("gp_config.retry_halvings", c.retry_halvings, 21);
     require_choice("gp_config.sleep", c.sleep, 2);
     if (c.sleep == 1 && scheme_of(c) != Scheme::adjoint)
-        throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = 1: expected 0, sleep is of the default scheme");
+        throw make_error(GP_E_UNSUPPORTED,
+                         "gp_config.sleep = 1: expected 0 with this stress or preset, only the default scheme sleeps");
 
     if (by_number_density(scheme_of(c))) {
         const char *none = "0: the schemes with GP_DENSITY_NUMBER have none";

@@ -10,7 +10,8 @@ namespace gp {
 void require_partable(const Scene &scene) {
     const gp_config &config = scene.config();
     if (by_number_density(scheme_of(config)))
-        throw make_error(GP_E_UNSUPPORTED, "preset: several processes do not work on the paper's schemes");
+        throw make_error(GP_E_UNSUPPORTED, "gp_config.preset: expected the default or the implicit scheme with several "
+                                           "processes, not one of the paper's");
     if (config.sleep != 0)
         throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = 1: expected 0 with several processes");
 }

@@ -110,7 +110,7 @@ not named are the library's.
 
 The library's own `horizon` stays at 4 dl. 3 dl costs less at the same error in collapses of beads, and was tried as the
 default; what it loses is robustness, which counts for more in a default. Coarse deposits of strong friction come to rest less
-surely ([stability.md](stability.md#coarse-deposits-and-the-horizon)). Of the tests of extreme scenes nine failed with it (once,
+reliably ([stability.md](stability.md#coarse-deposits-and-the-horizon)). Of the tests of extreme scenes nine failed with it (once,
 by hand): three rows of grains on a rough floor still moved by 0.04 dl from 1 to 2 s, and two and two grains that met in free
 space left with up to 7 times their kinetic energy, where with 4 dl none gain any. With 24 neighbours that bear weight in place
 of 44, four grains are as much of a neighbourhood as a quarter plane is, and the operators cannot tell them apart. On the

@@ -1,6 +1,6 @@
 """granperi: dry granular flow in two dimensions, from first slip to full arrest.
 
-The Python side of the C library of that name. Start with help(granperi.Simulation); pictures are in granperi.plot.
+The Python package of the C library granperi. Start with help(granperi.Simulation); pictures are in granperi.plot.
 """
 from ._compare import Difference, compare
 from ._enums import Density, Field, Fluidity, InitialPressure, Preset, StepLimit, Stress, Wall

@@ -55,7 +55,7 @@ def _shots(source: Any, name: str, t_end: float | None, every: float, progress: 
 
 def animate(source: Any, path: "str | os.PathLike[str]", name: str = "speed", t_end: float | None = None,
             every: float = 0.01, fps: int = 20, progress: bool = False) -> None:
-    """Writes an animation of a field: all frames of a result file, or of a simulation that is run for it.
+    """Writes an animation of a field: all frames of a result file, or of a simulation, which is run for it.
 
     Args:
         source: a Result or its path, or a simulation.
@@ -64,10 +64,10 @@ def animate(source: Any, path: "str | os.PathLike[str]", name: str = "speed", t_
         t_end: s, of a simulation: the end of its run.
         every: s, of a simulation: between two frames.
         fps: pictures per second, at least 1.
-        progress: shows a bar (needs tqdm), of a simulation.
+        progress: of a simulation: shows a bar (needs tqdm).
 
     Raises:
-        ArgumentError: another end of the name, a program that is not installed, no t_end.
+        ArgumentError: another ending of the name, a program that is not installed, no t_end.
         FileError: a file that is no result.
 
     Example:

@@ -27,7 +27,7 @@ class Difference:
 
 
 def compare(first: Any, second: Any, times: Any = None) -> list[Difference]:
-    """Peak, fronts, centre of mass, and the distance of particles of the same id, of two sources.
+    """Compares two sources: peak, fronts, centre of mass, and the distance between particles of the same id.
 
     Args:
         first, second: results, their paths, simulations or snapshots.

@@ -25,7 +25,7 @@ class ArgumentTypeError(ArgumentError, TypeError):
 
 
 class StateError(Error, RuntimeError):
-    """A call out of order, on something closed or outdated, from inside a callback, or from a second thread."""
+    """A call out of order, on something closed or out of date, from inside a callback, or from a second thread."""
 
     status = lib.GP_E_STATE
 
@@ -49,7 +49,7 @@ class DivergedError(Error, ArithmeticError):
 
 
 class UnsupportedError(Error, NotImplementedError):
-    """The option exists, but this build or version does not have it."""
+    """The option exists, but not in this build, in this scheme or on several processes."""
 
     status = lib.GP_E_UNSUPPORTED
 
@@ -61,13 +61,13 @@ class VersionError(Error, RuntimeError):
 
 
 class InternalError(Error, RuntimeError):
-    """A defect of the library: please report its text."""
+    """A defect of the library: please report the text."""
 
     status = lib.GP_E_INTERNAL
 
 
 class GranperiWarning(UserWarning):
-    """Something doubtful that the library noticed, with its figure and what to change."""
+    """Something doubtful that the library noticed, with a number and what to change."""
 
 
 _by_status = {

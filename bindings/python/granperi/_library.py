@@ -29,7 +29,7 @@ def has_feature(name: str) -> bool:
         name: "hdf5", "openmp", "mpi", or an instruction set: "x86-64-v3".
 
     Returns:
-        True or False; False of an unknown name.
+        True or False; False for an unknown name.
 
     Example:
         print(granperi.has_feature("hdf5"))

@@ -17,11 +17,11 @@ class Plate(Parameters):
 
     Its line goes from (x0, y0) to (x1, y1), or through point_x, point_y, which points (shape (n, 2)) sets at once. floor,
     wall, gate and line make the usual ones, turned the right way. What the library refuses is an ArgumentError that names
-    the parameter, and the point.
+    the parameter and the point.
 
     It is at rest, or moves at vx, vy and turns at omega about its pivot; or by the table knot_t, knot_x, knot_y, knot_angle
-    (displacements and turn since the start; knot_angle, or knot_x and knot_y, may be left out), or as the host says
-    (Simulation.set_plate_motion), or under normal_pressure. The lengths n_points and n_knots are those of the arrays.
+    (displacements and turn since the start; knot_angle, or knot_x and knot_y, may be left out), or follows the host
+    (Simulation.set_plate_motion), or moves under normal_pressure. The lengths n_points and n_knots are those of the arrays.
 
     Each parameter with its unit, meaning, range and [default]:
     """
@@ -52,7 +52,7 @@ class Plate(Parameters):
 
     @property
     def points(self) -> np.ndarray:
-        """m, shape (n, 2): the line, also of a plate that has two ends only."""
+        """m, shape (n, 2): the line, also of a plate with two ends only."""
         if self.point_x is not None and self.point_y is not None:
             return np.column_stack([self.point_x, self.point_y])
         return np.array([[self.x0, self.y0], [self.x1, self.y1]])
@@ -93,7 +93,7 @@ class Plate(Parameters):
             print(gate.at(0.1)[:, 1].min(), "m above the floor")
 
         Restrictions:
-            What the host or a load moves is known to Simulation.plate_load only.
+            Where the host or a load has moved a plate, only Simulation.plate_load knows.
         """
         if self.knot_t is None:
             return self.placed(self.vx * time, self.vy * time, self.omega * time)
@@ -115,7 +115,7 @@ class Plate(Parameters):
             The Plate, to be added by Simulation.add_plate.
 
         Raises:
-            ArgumentTypeError: a name that does not exist, or a value that is no number.
+            ArgumentTypeError: a name that does not exist, or a value that is not a number.
 
         Example:
             sim.add_plate(granperi.Plate.floor(-1, 1, y=-0.2, friction="coulomb", wall_mu=0.3))
@@ -130,14 +130,14 @@ class Plate(Parameters):
         Args:
             x: its place, m, finite.
             y_bottom, y_top: its ends, m, finite, in any order.
-            material: "left" or "right", the side on which it is.
+            material: "left" or "right", the side on which the material is.
             **more: other parameters of Plate, such as friction.
 
         Returns:
             The Plate, to be added by Simulation.add_plate.
 
         Raises:
-            ArgumentTypeError: another material, a name that does not exist, or a value that is no number.
+            ArgumentTypeError: another material, a name that does not exist, or a value that is not a number.
 
         Example:
             sim.add_plate(granperi.Plate.wall(0.06, 0.0, 0.1, "left", friction="free_slip"))
@@ -158,7 +158,7 @@ class Plate(Parameters):
             x: its place, m, finite.
             height: of the column that it holds, m, finite, above 0.
             lift_time: s, finite, above 0.
-            material: "left" or "right", the side on which it is.
+            material: "left" or "right", the side on which the material is.
             spacing: of the simulation, m, finite, above 0.
             **more: other parameters of Plate, such as friction.
 
@@ -167,7 +167,7 @@ class Plate(Parameters):
 
         Raises:
             ArgumentError: height, lift_time or spacing not above 0.
-            ArgumentTypeError: another material, or a value that is no number.
+            ArgumentTypeError: another material, or a value that is not a number.
 
         Example:
             sim.add_plate(granperi.Plate.gate(0.05, height=0.05, lift_time=0.1, material="left", spacing=0.01))
@@ -187,14 +187,14 @@ class Plate(Parameters):
     def line(cls, points: Any, closed: bool = False, material: str = "right", **more: Any) -> "Plate":
         """A line of any shape through points.
 
-        The plate's own way has the material on its right, so it may be the other one round than the points: surface_velocity
-        goes by the plate's.
+        The plate's line has the material on its right, so it may run against the order of the points: surface_velocity
+        is along the plate's line.
 
         Args:
             points: m, shape (n, 2), n at least 2, finite.
-            closed: on to the first point again, if the last is not that already.
-            material: the side on which it is, "right" or "left" of the way (a profile of terrain from left to right has it on
-                the left), of a closed line "inside" or "outside".
+            closed: back to the first point, if the last one is not there already.
+            material: its side, "right" or "left" as seen along the points (a profile of terrain from left to right has it on
+                the left), or "inside" or "outside" of a closed line.
             **more: other parameters of Plate, such as friction or omega.
 
         Returns:

@@ -29,9 +29,9 @@ class Probe:
         sim.run(1.0)
         probe.time, probe["pressure"], probe["fy"]
 
-    It begins with the state in which the simulation goes on next, and does not change the run. A field at a point is the mean
+    It begins with the state from which the simulation goes on next, and does not change the run. A field at a point is the mean
     of the particles within `radius` [m], nearer ones with more weight, (1 - r2 / radius2)^2; NaN where there is none. fx, fy
-    [N/m] and torque_pivot [N] are means over the time since the sample before (NaN in the first), which single grains do not set;
+    [N/m] and torque_pivot [N] are means over the time since the sample before (NaN in the first), so that no single grain dominates;
     impulse_x, impulse_y, impulse_torque, dx, dy and angle are those of Load.
     """
 
@@ -141,7 +141,7 @@ class Probe:
         write_csv(path, self.names, self._rows, overwrite)
 
     def read_csv(self, path: "str | os.PathLike[str]") -> None:
-        """Goes on with the samples up to the simulation's time that to_csv() has written.
+        """Takes over the samples that to_csv() has written, up to the simulation's time.
 
         Args:
             path: of the file.
@@ -169,7 +169,7 @@ class Probe:
             self._timer.skip(self._rows[-1][0] + 1e-9 * sim.clock.dt)
 
     def remove(self) -> None:
-        """No more samples; those that there are stay.
+        """Ends the sampling; the samples so far stay.
 
         Example:
             probe = sim.add_probe(plates=[0], every=0.005)

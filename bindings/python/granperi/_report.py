@@ -147,12 +147,12 @@ def _choose(study: _Study, sides: Sides, seeds: int) -> list[float]:
 def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accuracy: float = 0.05, *, end: float | None = None,
            spacings: Sequence[float] | None = None, seeds: int = 4, quantities: Mapping[str, Quantity] | None = None,
            of: Sequence[str] | None = None, workers: int = 1, progress: bool = False) -> Report:
-    """Error against run time of one's own scene: what each spacing errs by and costs, and which one is enough.
+    """Error against run time of your own scene: the error and cost of each spacing, and which one is enough.
 
-    Runs the scene at three or four spacings, several times each, within a budget. The runs of one spacing begin with particles
-    0.01 spacings beside each other's (or by the scene's own jitter): what they differ by is chance. From the means follow the
-    observed order and the limit of zero spacing, and from both the error of one run, which holds in 9 of 10 cases
-    (docs/report.md). What does not converge is said to.
+    Runs the scene at three or four spacings, several times each, within a budget. In the runs of one spacing the particles begin
+    0.01 spacings apart (or by the scene's own jitter): the differences are chance. From the means follow the observed order and
+    the limit of zero spacing, and from both the error of one run, which holds in 9 of 10 cases (docs/report.md). The report
+    says what does not converge.
 
     Args:
         scene: a Scene, or the path of a scene file.
@@ -164,15 +164,15 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
             columns' sides are whole numbers of them as far as possible.
         seeds: runs of each spacing, 2 to 100.
         quantities: more of them, {"name": function of the Simulation at its end}.
-        of: the quantities that the accuracy is about; not given: peak_height and width_90.
-        workers: runs beside each other, 1 to 64.
+        of: the quantities that are to have the accuracy; not given: peak_height and width_90.
+        workers: runs at a time, 1 to 64.
         progress: shows a bar (needs tqdm).
 
     Returns:
         The Report.
 
     Raises:
-        ArgumentError: a budget in which not two runs at each of three spacings are possible, a value out of range, a quantity
+        ArgumentError: a budget too small for two runs at each of three spacings, a value out of range, a quantity
             that does not exist; a scene with particles given one by one, whose spacing is theirs.
         SceneError: what the library refuses of the scene.
 

@@ -39,7 +39,7 @@ class Row:
 class Recommendation:
     """What reaches an accuracy at the least cost: the mean of `runs` runs at this spacing. cpu_seconds: of all of them.
 
-    runs 0: nothing does that the report can tell of, for this reason.
+    runs 0: nothing that the report can judge reaches it; reason says why.
     """
 
     accuracy: float
@@ -122,7 +122,7 @@ class Report:
         return value
 
     def error(self, name: str, spacing: float, runs: int = 1) -> float:
-        """Relative error of the mean of so many runs at any spacing, as large as it is in one of ten cases.
+        """Relative error of the mean of this many runs at any spacing, not exceeded in 9 of 10 cases.
 
         Args:
             name: of a quantity in convergence, such as "peak_height" or "width_90".
@@ -130,10 +130,10 @@ class Report:
             runs: number of runs, at least 1.
 
         Returns:
-            A share (0.05 is 5 %); NaN where there is nothing that it is relative to.
+            A fraction (0.05 is 5 %); NaN where there is nothing to relate it to.
 
         Raises:
-            ArgumentError: a quantity that the report has not.
+            ArgumentError: a quantity that the report does not have.
 
         Example:
             print(report.error("width_90", report.spacings[0]))
@@ -160,7 +160,7 @@ class Report:
             of: names of quantities in convergence.
 
         Returns:
-            A Recommendation; its runs are 0 where nothing does, and reason says why.
+            A Recommendation; its runs are 0 if nothing reaches the accuracy, and reason says why.
 
         Raises:
             ArgumentError: an accuracy outside its range.
@@ -263,7 +263,7 @@ class Report:
     # --------------------------------------------------------------------------------------------- writing
 
     def data(self) -> dict[str, Any]:
-        """All of it as numbers, texts, lists and dicts, as in the JSON file; what is not there is None.
+        """Everything as numbers, texts, lists and dicts, as in the JSON file; missing values are None.
 
         Returns:
             A dict.
@@ -297,7 +297,7 @@ class Report:
             "runs": [dataclasses.asdict(run) for run in self.runs]})
 
     def html(self) -> str:
-        """One page with pictures, which needs nothing beside it.
+        """One self-contained page with pictures.
 
         Returns:
             HTML.
@@ -322,8 +322,8 @@ class Report:
             overwrite: replaces a file that exists.
 
         Raises:
-            ArgumentError: another end of the name.
-            FileError: it is there, and overwrite is false; or it cannot be written.
+            ArgumentError: another ending of the name.
+            FileError: the file exists, and overwrite is false; or it cannot be written.
 
         Example:
             report.write("collapse.json", overwrite=True)

@@ -38,7 +38,7 @@ class Snapshot:
             An array of shape (n). Units: those of Field.
 
         Raises:
-            ArgumentError: a name that does not exist, or a field that the file has not.
+            ArgumentError: a name that does not exist, or a field that the file does not have.
 
         Example:
             with granperi.Result("collapse.h5") as result:
@@ -84,7 +84,7 @@ class Snapshot:
 
     @property
     def state(self) -> State:
-        """Clock, energies, fronts and peak; of a frame wall_seconds is NaN."""
+        """Clock, energies, fronts and peak; in a frame wall_seconds is NaN."""
         raise NotImplementedError
 
     def surface(self, x) -> np.ndarray:
@@ -117,7 +117,7 @@ class Snapshot:
             x in m, shape (n); NaN where they do not touch.
 
         Raises:
-            ArgumentError: a column that does not exist, or twice the same.
+            ArgumentError: a column that does not exist, or the same one twice.
             ArgumentTypeError: another shape than (n).
         """
         return self._shape().interface(left, right, y)
@@ -311,7 +311,7 @@ class Result:
 
     @property
     def history(self) -> History:
-        """The states at the frames. What differs from run to run, wall_seconds, is not in the file: NaN."""
+        """The states at the frames. wall_seconds, which differs from run to run, is not in the file: NaN."""
         return History(self._state(frame) for frame in range(len(self)))
 
     def universe(self) -> Any:

@@ -20,7 +20,7 @@ from ._tables import require_free, write_text
 
 
 class SceneError(ArgumentError):
-    """A scene file that cannot be read as one; the text names file, line and table."""
+    """A scene file that cannot be read; the text names file, line and table."""
 
 
 @dataclasses.dataclass
@@ -93,7 +93,7 @@ class Scene:
             The Scene.
 
         Raises:
-            SceneError: it cannot be read; what is unknown or of the wrong type, with its line.
+            SceneError: it cannot be read, or has something unknown or of the wrong type; the text names the line.
 
         Example:
             scene = granperi.Scene.read("collapse.toml")
@@ -115,13 +115,13 @@ class Scene:
 
         Args:
             text: TOML.
-            name: what messages call it; files in it are beside this.
+            name: for messages; files that the scene names are looked for beside this path.
 
         Returns:
             The Scene.
 
         Raises:
-            SceneError: what is unknown or of the wrong type, with its line.
+            SceneError: something unknown or of the wrong type; the text names the line.
 
         Example:
             scene = granperi.Scene.parse("[[column]]\nwidth = 0.1\nheight = 0.05\n")
@@ -255,7 +255,7 @@ class Scene:
         return [part for part in self._parts if part.kind == "probe"]
 
     def has_probes(self) -> bool:
-        """Whether it names time series to be recorded.
+        """Whether it has probes.
 
         Returns:
             True or False.
@@ -301,7 +301,7 @@ class Scene:
             A list of paths: as the key output of each [[probe]] says, or RESULT_probe1.csv and so on.
 
         Raises:
-            SceneError: an output that is no name of a file, or the same twice.
+            SceneError: an output that is not a file name, or the same one twice.
 
         Example:
             print(granperi.Scene.read("collapse.toml").probe_files("collapse.h5"))
@@ -317,7 +317,7 @@ class Scene:
         return files
 
     def write_into(self, name: str) -> None:
-        """Has the run write NAME.h5, and its probes files that begin with NAME.
+        """Makes the run write NAME.h5, and its probes files that begin with NAME.
 
         Args:
             name: without an extension.
@@ -334,18 +334,18 @@ class Scene:
 
     def record(self, path: "str | os.PathLike[str] | None" = None, progress: bool = False, *, overwrite: bool = False,
                resume: bool = False, checkpoint: float = CHECKPOINT_SECONDS) -> History:
-        """Builds the scene and runs it as its table [run] says, into a result file of which nothing is ever lost.
+        """Builds the scene and runs it as its table [run] says, into a result file; an interruption loses nothing.
 
-        All of the scene is checked before a file is touched, the run is written into a directory beside its place
+        The whole scene is checked before a file is touched, the run is written into a directory beside its place
         (collapse.part/ for collapse.h5), and moved there when it is complete. A checkpoint (collapse.gpc) is saved on the way,
         when the run is interrupted, and at its end; with resume the run goes on from it with the same bits as if it had not
         been interrupted.
 
         Args:
-            path: of the result; not given: run.output; "": nowhere, and the probes neither.
+            path: of the result; not given: run.output; "": no files, also none of probes.
             progress: shows a bar (needs tqdm).
             overwrite: a result that exists is replaced by the complete new one.
-            resume: goes on with a run that was interrupted, or makes a complete one longer (run.end); does nothing where all is
+            resume: goes on with an interrupted run, or makes a complete one longer (run.end); does nothing if all is
                 done.
             checkpoint: s of wall-clock time between two checkpoints, above 0.
 
@@ -355,8 +355,8 @@ class Scene:
         Raises:
             FileError: a result that exists (unless overwrite or resume), a directory that does not, a full disk.
             StateError: another process runs into this place.
-            ArgumentError: resume with another scene than the one that was begun, with what differs; its threads, end, until and
-                every may change.
+            ArgumentError: resume with another scene than the one that was begun; the text says what differs. Its threads, end,
+                until and every may change.
             SceneError: what the library refuses, with file, line and table.
 
         Example:
@@ -373,7 +373,7 @@ class Scene:
             return History(sim.frames(self.run.end, self.run.every, progress, self.run.until == "rest"))
 
     def write(self, path: "str | os.PathLike[str]", overwrite: bool = False) -> None:
-        """Writes a scene file (TOML), from which read() makes the same scene. Files of points and masks are referred to.
+        """Writes a scene file (TOML), from which read() makes the same scene. Files of points and masks are named in it.
 
         Args:
             path: of the file.

@@ -17,7 +17,7 @@ from ._simulation import Simulation
 class Run:
     """How a scene is run: to `end` [s], a frame each `every` [s] in the file `output` ("" for none).
 
-    until: "end", or "rest": it is over when the material rests, at the latest at `end`.
+    until: "end", or "rest": the run is over when the material rests, at the latest at `end`.
     """
 
     end: float = 1.0

@@ -13,10 +13,10 @@ from ._scene import Scene, scene_of
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    """Settings for bodies whose smallest side is `length`, and what they erred and cost in three collapses.
+    """Settings for bodies whose smallest side is `length`, with their errors and cost in three collapses.
 
     name: "draft", "standard" or "fine". length [m]: the smallest side of a column. spacing [m], horizon [spacings], sleep: the
-    parameters of Config; all others stay what they are. aim: what one run of the column with a = 1.25 errs by less than, 0.1,
+    parameters of Config; all others stay what they are. aim: the error of one run of the column with a = 1.25 is below this: 0.1,
     0.05 or 0.02. peak_error, runout_error: measured relative error of one run (bias and scatter, root mean square) in the
     peak, and in the run-out of 90 % of the mass, in the worst of the three. cpu_seconds: of one run with a = 1.25 to 1 s, one
     thread.
@@ -38,10 +38,10 @@ class Settings:
         return {"spacing": self.spacing, "horizon": self.horizon, "sleep": self.sleep}
 
     def config(self, config: Config | None = None) -> Config:
-        """A configuration with these settings; what else it says stays.
+        """A configuration with these settings; its other values stay.
 
         Args:
-            config: whose other values stay; not given: the library's defaults.
+            config: the one to change; not given: the library's defaults.
 
         Returns:
             A Config.
@@ -85,11 +85,11 @@ _LEVELS = {
 def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Settings:
     """Recommended settings of the default scheme for a scene, or for bodies of a length.
 
-    Errors and cost are those of three collapses of glass beads (docs/settings.md): what another scene errs by, only runs of it
-    at several spacings tell, as granperi.report makes them; its cost grows as its particles and its steps.
+    Errors and cost are those of three collapses of glass beads (docs/settings.md). The errors of another scene show only in runs
+    at several spacings, as granperi.report makes them; its cost grows with its particles and its steps.
 
     Args:
-        name: "draft" to see that a scene is right, "standard" for results, "fine" to see whether they still move.
+        name: "draft" to see that a scene is right, "standard" for results, "fine" to see whether these still change.
         of: a Scene, the path of a scene file, or the smallest side (m) of the bodies that are to be resolved, finite and above
             0. A scene's is the smallest width or height of its columns. Where something smaller decides (an opening, an
             obstacle, a thin layer), give its length.
@@ -107,7 +107,7 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Setting
 
     Restrictions:
         With granular fluidity take the smaller of this spacing and half a grain. sleep = 1 ends creep slower than 0.006 sqrt(g
-        spacing): set 0 where creep is the question.
+        spacing): set 0 where creep is the question, with the implicit scheme, and on several processes, which refuse it.
     """
     if not isinstance(name, str):
         raise ArgumentTypeError(f"name = {name!r:.80}: expected one of {', '.join(_LEVELS)}")

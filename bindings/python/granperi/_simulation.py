@@ -26,8 +26,8 @@ class Simulation(SimulationRunning):
             sim.run(1.0)
             print(sim.state.peak_height)
 
-    All quantities are in SI units. What is read are copies, in the order in which particles were added, unless it is asked
-    for by view(). One simulation belongs to one thread at a time; a second thread gets StateError. Steps run without the
+    All quantities are in SI units. What you read is a copy, in the order in which particles were added, unless you ask for
+    a view(). One simulation belongs to one thread at a time; a second thread gets StateError. Steps run without the
     GIL. Errors are subclasses of granperi.Error with the library's text.
     """
 
@@ -36,7 +36,7 @@ class Simulation(SimulationRunning):
         """Runs with a frame in the HDF5 file `path` at the start, after the first step at or past each multiple of `every`, and at
         the end.
 
-        See frames() and output(). An existing file is replaced: Scene.record() refuses to.
+        See frames() and output(). An existing file is replaced, which Scene.record() refuses.
 
         Args:
             path: of the file; beside it a .xdmf file is written, for ParaView.
@@ -74,7 +74,7 @@ class Simulation(SimulationRunning):
             fields: names or groups; "default" is position, velocity, pressure, stress, shear_rate, inertial_number and column,
                 which is what the pictures need.
             compression: 0 .. 9, of gzip; 0: none.
-            single_precision: 32 bits in place of 64.
+            single_precision: 32 bits instead of 64; positions keep 64, rounded to 1e-5 spacings.
             append: goes on with a file of this simulation, after load().
 
         Returns:
@@ -96,13 +96,13 @@ class Simulation(SimulationRunning):
             return engine.output
 
     def save(self, path: "str | os.PathLike[str]") -> None:
-        """Writes a checkpoint, from which load() goes on bit by bit.
+        """Writes a checkpoint, from which load() goes on with the same bits.
 
         Args:
             path: of the file, which is replaced as a whole if it exists.
 
         Raises:
-            FileError: it cannot be written; what was there is still there.
+            FileError: it cannot be written; the old file is still there.
             UnsupportedError: a library without HDF5.
 
         Example:
@@ -127,7 +127,7 @@ class Simulation(SimulationRunning):
             A Simulation, at the time and with the bits of the saved one.
 
         Raises:
-            FileError: no such file, or none of a checkpoint; the text says what to do.
+            FileError: no such file, or not a checkpoint; the text says what to do.
             VersionError: a file of a newer version.
             UnsupportedError: a library without HDF5.
 

@@ -50,9 +50,9 @@ class SimulationReading(SimulationScene):
             return _state.read_state(engine.sim)
 
     def state_parts(self, *, deposit: bool = False, marks: bool = False, drift: bool = False) -> State:
-        """The state without what takes time to find, but for the parts asked for; the fields of the others are NaN.
+        """The state without what is slow to compute, except for the parts asked for; the fields of the others are NaN.
 
-        Without any it costs 2 to 5 % of a time step, the whole state about one.
+        Without any of them it costs 2 to 5 % of a time step, the whole state about one step.
 
         Args:
             deposit: x_left, x_right, peak_x, peak_height, detached.
@@ -101,7 +101,7 @@ class SimulationReading(SimulationScene):
 
     @property
     def epoch(self) -> int:
-        """Number of changes to the simulation so far: a view is valid while it is the same."""
+        """Number of changes to the simulation so far: a view is valid while this stays the same."""
         with self._engine.locked("epoch") as engine:
             return engine.epoch()
 
@@ -197,7 +197,7 @@ class SimulationReading(SimulationScene):
             print(sim.surface([0.0, 0.02]))
 
         Restrictions:
-            What lies apart from the connected deposit is not in it: state.detached is its share.
+            What lies apart from the connected deposit is not in it: state.detached is the share of that.
         """
         x = doubles("x", x)
         height = np.zeros(len(x))
@@ -216,7 +216,7 @@ class SimulationReading(SimulationScene):
             x in m, shape (n); NaN where they do not touch.
 
         Raises:
-            ArgumentError: a column that does not exist, twice the same, or a value that is not finite.
+            ArgumentError: a column that does not exist, the same one twice, or a value that is not finite.
             ArgumentTypeError: another shape than (n).
 
         Example:

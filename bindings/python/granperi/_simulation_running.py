@@ -26,7 +26,7 @@ class SimulationRunning(SimulationReading):
             n: number of steps, at least 0.
 
         Returns:
-            False if the callback stopped it before.
+            False if the callback stopped it before the end.
 
         Raises:
             ArgumentError: n below 0, a sound speed that is wrong for the scene (at the first step).
@@ -50,21 +50,22 @@ class SimulationRunning(SimulationReading):
             progress: shows a bar (needs tqdm), in a terminal or a notebook.
 
         Returns:
-            False if the callback stopped it before.
+            False if the callback stopped it before the end.
 
         Raises:
             ArgumentError: t_end before the clock or not finite, a sound speed that is wrong for the scene (at the first step).
             DivergedError: a value became unbounded; the simulation is at its last good step and can be read, not stepped.
             FileError: a frame of an open output could not be written; the step is complete.
             ImportError: progress, and no tqdm.
-            KeyboardInterrupt: Ctrl-C, after the present step; the next run goes on.
+            KeyboardInterrupt: Ctrl-C, after the current step; the next run goes on.
 
         Example:
             sim.run(0.05)
             print(sim.state.peak_height, "m")
 
         Restrictions:
-            Each end is another run, since steps are shortened for it: look on the way by frames(), a probe or a callback.
+            A run with another end has other bits, since steps are shortened to land on it: to look on the way use frames(), a
+            probe or a callback.
         """
         t_end = number("t_end", t_end)
         with self._engine.locked("run") as engine:
@@ -74,10 +75,10 @@ class SimulationRunning(SimulationReading):
                 return engine.advance("run", lib.granperi_run, t_end) == 0
 
     def run_until_rest(self, t_max: float, progress: bool = False) -> bool:
-        """Steps until the material rests (state.at_rest), which is looked at after every tenth step.
+        """Steps until the material rests (state.at_rest), which is checked after every tenth step.
 
         Args:
-            t_max: s, at the latest until the clock shows this; finite, not before what it shows.
+            t_max: s, the latest end; finite, not before what the clock shows.
             progress: shows a bar (needs tqdm).
 
         Returns:
@@ -141,7 +142,7 @@ class SimulationRunning(SimulationReading):
                   radius: float | None = None) -> Probe:
         """A time series of fields at points, and of the loads on plates.
 
-        It begins when the simulation goes on next, at its present state, and does not change the run. See Probe.
+        It begins with the present state when the simulation goes on, and does not change the run. See Probe.
 
         Args:
             points: m, shape (n, 2), finite; not given: none.
@@ -172,7 +173,7 @@ class SimulationRunning(SimulationReading):
         output.
 
         Args:
-            callback: function of the simulation; None: no longer.
+            callback: function of the simulation; None: removes it.
             every: steps between two calls, at least 1.
 
         Raises:

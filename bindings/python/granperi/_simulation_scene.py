@@ -62,7 +62,7 @@ class SimulationScene(SimulationBase):
     def add_column(self, column: Column | None = None, **values: Unpack[ColumnValues]) -> int:
         """Adds a rectangle of particles; returns its number, which is the value of the field column.
 
-        They are on the lattice of the spacing, the first half a spacing inside the left lower corner. Sides that are not whole
+        They are on the lattice of the spacing, the first half a spacing inside the lower left corner. Sides that are not whole
         numbers of spacings are rounded, with a warning.
 
         Args:
@@ -133,7 +133,7 @@ class SimulationScene(SimulationBase):
 
         Raises:
             ArgumentTypeError: arrays of other shapes or of different lengths.
-            ArgumentError: a value that is not finite, one of vx and vy alone, a material that does not exist, places outside a
+            ArgumentError: a value that is not finite, only one of vx and vy, a material that does not exist, places outside a
                 period.
 
         Example:
@@ -186,12 +186,12 @@ class SimulationScene(SimulationBase):
                  vy: float = 0.0) -> int:
         """Adds the particles where a mask is true; returns the set's number, as add_particles.
 
-        Its pixels are square; else as add_polygon.
+        Its pixels are square; otherwise as add_polygon.
 
         Args:
             mask: true and false, or 1 and 0, shape (rows, columns), the first row at the top; or the path of an image (Pillow
                 reads it), in which what is darker than half is material.
-            x_min, y_min: left lower corner of the mask, m, finite.
+            x_min, y_min: lower left corner of the mask, m, finite.
             width: of all columns, m, finite, above 0.
             material: number of the material, 0 to the number of materials - 1.
             vx, vy: velocity of all of them, m/s, finite.
@@ -274,7 +274,7 @@ class SimulationScene(SimulationBase):
             print(sim.state.gravity_x, "m/s2")
 
         Restrictions:
-            The sound speed stays that of the first gravity, and a warning says so where it is too low: then set
+            The sound speed stays that of the first gravity; if it becomes too low, a warning says so: then set
             Config.sound_speed.
         """
         gx, gy = number("gx", gx), number("gy", gy)

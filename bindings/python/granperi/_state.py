@@ -123,7 +123,7 @@ def read_clock(sim) -> Clock:
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """Load of the material on a plate, and where the plate has got to."""
+    """Load of the material on a plate, and how far the plate has moved."""
 
     fx: float
     fy: float

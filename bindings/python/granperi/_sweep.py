@@ -232,19 +232,19 @@ class _Runs:
 
 def sweep(scene: Any, parameters: Any, directory: "str | os.PathLike[str]" = "sweep", workers: int | None = None,
           progress: bool = False, overwrite: bool = False) -> Sweep:
-    """Runs a scene once per point, several beside each other, and returns the table of results.
+    """Runs a scene once per point, several at a time, and returns the table of results.
 
     Each point has a scene file in the directory, a result, a checkpoint and a log of what it said; the table is in sweep.csv.
-    What is complete is not run again, what was interrupted goes on: call it once more. One that fails does not stop the others:
-    table.failed. Ctrl-C has all save a checkpoint and end.
+    Called once more, it continues what was interrupted and leaves what is complete. A point that fails does not stop the others:
+    table.failed. On Ctrl-C all save a checkpoint and end.
 
     Args:
         scene: a Scene, or the path of a scene file.
         parameters: {key: values}, of which all combinations are run, or a list of points {key: value}; keys as in Scene.set().
         directory: where the files are; it is made if need be.
-        workers: processes at a time, at least 1; not given: the processors that this one may use, over the scene's threads.
+        workers: processes at a time, at least 1; not given: the processors available, divided by the scene's threads.
         progress: shows a bar (needs tqdm).
-        overwrite: a point whose scene file is there with other content is run anew, and its old result deleted.
+        overwrite: a point whose scene file exists with other content is run anew, and its old result deleted.
 
     Returns:
         The Sweep: a row per point.
@@ -252,7 +252,7 @@ def sweep(scene: Any, parameters: Any, directory: "str | os.PathLike[str]" = "sw
     Raises:
         SceneError: a point that the library refuses; all are built before the first run.
         ArgumentError: a key that does not exist, the same point twice, workers below 1.
-        FileError: a point whose scene file is there with other content, and overwrite is false.
+        FileError: a point whose scene file exists with other content, and overwrite is false.
 
     Example:
         table = granperi.sweep("collapse.toml", {"config.spacing": [0.02, 0.01]}, workers=1)

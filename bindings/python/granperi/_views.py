@@ -32,9 +32,9 @@ class _Memory:
 class FieldView(NDArrayOperatorsMixin):
     """One field of a View: float64 (id: int64, column: int32) of shape (n), read-only, in the library's own order.
 
-    It can be used like an array. Each use looks whether the simulation has changed since and raises StateError if so.
+    It can be used like an array. Each use checks whether the simulation has changed since, and raises StateError if so.
     What indexing, arithmetic and copy() give is independent of the simulation. np.asarray gives the memory itself: while
-    such an array exists, the simulation refuses to step, so that it never shows anything else than it did.
+    such an array exists, the simulation refuses to step, so that the array never changes.
     """
 
     def __init__(self, view: "View", name: str, address: int):
@@ -147,7 +147,7 @@ class FieldView(NDArrayOperatorsMixin):
         return self._raw().mean()
 
     def argmin(self):
-        """The place of the smallest value in the library's order.
+        """The index of the smallest value in the library's order.
 
         Returns:
             A whole number.
@@ -159,7 +159,7 @@ class FieldView(NDArrayOperatorsMixin):
         return self._raw().argmin()
 
     def argmax(self):
-        """The place of the largest value in the library's order.
+        """The index of the largest value in the library's order.
 
         Returns:
             A whole number.

@@ -34,7 +34,7 @@ def field(source: Any, name: str = "speed", time: float | None = None, axes: Axe
         matplotlib's axes.
 
     Raises:
-        ArgumentError: a name that does not exist, a field that the file has not, a time without a frame.
+        ArgumentError: a name that does not exist, a field that the file does not have, a time without a frame.
         FileError: a file that is no result.
 
     Example:
@@ -188,7 +188,7 @@ def energy(source: Any, axes: Axes | None = None) -> Axes:
 def fronts(source: Any, axes: Axes | None = None) -> Axes:
     """Time-distance diagram of where the mass lies: bands that hold its middle 98, 90 and 50 %, the middle and the peak.
 
-    Unlike the outermost grains, which a single one sets, these converge with the spacing.
+    Unlike the ends of the deposit, which single grains set, these converge with the spacing.
 
     Args:
         source: a History, a simulation that has kept one (frames, record), a Result or its path.
