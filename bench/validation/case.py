@@ -23,7 +23,7 @@ class Case:
 
     @property
     def times(self) -> str:
-        return "not at all" if math.isinf(self.share) else f"{self.share:.2g} times"
+        return "not at all" if math.isinf(self.share) else f"{self.share:.2f} times" if self.share < 10 else f"{self.share:.0f} times"
 
     @property
     def verdict(self) -> str:

@@ -84,6 +84,9 @@ def count(results: Collection) -> Count:
     return Count(len(known) - len(missed), len(known), missed)
 
 
+FARTHEST = 3  # that the head names; the table has all
+
+
 def sentence(results: Collection) -> str:
     """What the head of the report says of them."""
     n = count(results)
@@ -91,7 +94,9 @@ def sentence(results: Collection) -> str:
         return ""
     text = f"Of {n.known} cases with a right answer {n.met} are met"
     if n.missed:
-        text += ". Missed: " + "; ".join(f"{c.name} ({c.times})" for c in n.missed)
+        near = sum(c.share < 2 for c in n.missed)
+        farthest = "; ".join(f"{c.name} ({c.times})" for c in n.missed[:FARTHEST])
+        text += f", {near} of the others are off by less than twice what is allowed. Farthest off: {farthest}"
     return text + "."
 
 

@@ -338,7 +338,7 @@ def paper_not_reproduced(results: Collection) -> list[str]:
 
 def in_short(results: Collection) -> str:
     """The paragraph that the report begins with."""
-    said = [every_case.sentence(results)]
+    said: list[str] = []
     default, walls = (results(runs.resolution_run(key, 32)) for key in ("default", "walls"))
     if default:
         text = (
@@ -352,15 +352,16 @@ def in_short(results: Collection) -> str:
         text += f". The experiment, between side walls, has {ref.EXPERIMENT_PEAK} ({percent(peak(default), ref.EXPERIMENT_PEAK)})"
         if walls:
             text += (
-                f"; with walls {runs.CHANNEL_WIDTH:g} m apart, which nobody has measured, ours has {fixed(peak(walls))} "
+                f"; with walls {runs.CHANNEL_WIDTH:g} m apart, an assumption, ours has {fixed(peak(walls))} "
                 f"({percent(peak(walls), ref.EXPERIMENT_PEAK)})"
             )
         said.append(text + ".")
+    said.append(every_case.sentence(results))
     printed, single = (results(runs.resolution_run(key, 32)) for key in ("nonlocal_2", "nonlocal_1"))
     if default and printed and single:
         said.append(
             f"The paper's scheme has {fixed(peak(printed))} as printed, with the friction doubled (the paper: {ref.PAPER_PEAK[4.0]}), and "
-            f"{fixed(peak(single))} with it as the law has it; its deposit sinks by {percent(peak(printed, 3.0), peak(printed))} from 0.42 to "
+            f"{fixed(peak(single))} with it as the law has it; the height of its deposit changes by {percent(peak(printed, 3.0), peak(printed))} from 0.42 to "
             f"3 s, for {printed.cpu_to(1.0) / default.cpu_to(1.0):.0f} times the CPU time."
         )
     return " ".join(text for text in said if text)
