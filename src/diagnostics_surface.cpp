@@ -71,6 +71,15 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
                 right_ = std::max(right_, point.x);
             }
     }
+    // What moves alike needs no new lists, and may have left the period as a whole since the last ones: it is seen where it is.
+    if (std::isfinite(x_min_) && left_ <= right_) {
+        const double length = x_max_ - x_min_;
+        const double away = right_ < x_min_  ? -std::ceil((x_min_ - right_) / length)
+                            : left_ > x_max_ ? std::ceil((left_ - x_max_) / length)
+                                             : 0;
+        x_min_ += away * length;
+        x_max_ += away * length;
+    }
     on_first(world, [&] {
         number_walls(world.walls);
         sort_by_x(points_, [](const Point &a, const Point &b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });

@@ -23,10 +23,24 @@ inline void expect_finite(Sim &sim) {
         for (const double value : sim.field(bit))
             ASSERT_TRUE(std::isfinite(value)) << "field " << bit;
     const gp_state s = sim.state();
-    for (const double value :
-         {s.time, s.dt, s.kinetic, s.potential, s.elastic, s.dissipated, s.plate_work, s.energy_error, s.momentum_x,
-          s.momentum_y, s.max_speed, s.x_left, s.x_right, s.peak_height, s.max_pressure})
-        ASSERT_TRUE(std::isfinite(value));
+    const std::pair<const char *, double> numbers[] = {{"time", s.time},
+                                                       {"dt", s.dt},
+                                                       {"kinetic", s.kinetic},
+                                                       {"potential", s.potential},
+                                                       {"elastic", s.elastic},
+                                                       {"dissipated", s.dissipated},
+                                                       {"plate_work", s.plate_work},
+                                                       {"energy_error", s.energy_error},
+                                                       {"momentum_x", s.momentum_x},
+                                                       {"momentum_y", s.momentum_y},
+                                                       {"max_speed", s.max_speed},
+                                                       {"x_left", s.x_left},
+                                                       {"x_right", s.x_right},
+                                                       {"peak_height", s.peak_height},
+                                                       {"max_pressure", s.max_pressure}};
+    for (const auto &[name, value] : numbers)
+        ASSERT_TRUE(std::isfinite(value))
+            << name << " = " << value << ", left " << s.x_left << ", right " << s.x_right << ", at " << s.peak_x;
 }
 
 // Largest difference of two fields.

@@ -31,7 +31,14 @@ class Parameters:
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
-        """The names of all parameters, in the library's order."""
+        """The names of all parameters, in the library's order.
+
+        Returns:
+            A tuple of names.
+
+        Example:
+            print(granperi.Material.names())
+        """
         ...
 
     def _set(self, name: str, value: Any) -> None: ...
@@ -54,7 +61,20 @@ class Parameters:
     def __setstate__(self, state: dict[str, Any]) -> None: ...
 
     def replace(self, **values: Any):
-        """A copy with some values changed."""
+        """A copy with some values changed.
+
+        Args:
+            **values: parameters by keyword.
+
+        Returns:
+            The copy.
+
+        Raises:
+            ArgumentTypeError: a name that does not exist, or a value of the wrong type.
+
+        Example:
+            smooth = granperi.Plate.floor(-0.3, 0.3).replace(friction="free_slip")
+        """
         ...
 
     def _fill(self):

@@ -39,11 +39,11 @@ class Plate(Parameters):
 
     Its line goes from (x0, y0) to (x1, y1), or through point_x, point_y, which points (shape (n, 2)) sets at once. floor,
     wall, gate and line make the usual ones, turned the right way. What the library refuses is an ArgumentError that names
-    the parameter, and the point.
+    the parameter and the point.
 
     It is at rest, or moves at vx, vy and turns at omega about its pivot; or by the table knot_t, knot_x, knot_y, knot_angle
-    (displacements and turn since the start; knot_angle, or knot_x and knot_y, may be left out), or as the host says
-    (Simulation.set_plate_motion), or under normal_pressure. The lengths n_points and n_knots are those of the arrays.
+    (displacements and turn since the start; knot_angle, or knot_x and knot_y, may be left out), or follows the host
+    (Simulation.set_plate_motion), or moves under normal_pressure. The lengths n_points and n_knots are those of the arrays.
 
     Each parameter with its unit, meaning, range and [default]:
     """
@@ -127,47 +127,135 @@ class Plate(Parameters):
 
     @property
     def points(self) -> np.ndarray:
-        """m, shape (n, 2): the line, also of a plate that has two ends only."""
+        """m, shape (n, 2): the line, also of a plate with two ends only."""
         ...
 
     @points.setter
     def points(self, value: Any) -> None: ...
 
     def placed(self, dx: float, dy: float, angle: float=0.0) -> np.ndarray:
-        """m, shape (n, 2): the line when the plate is displaced by dx, dy [m] and turned by angle [rad] about its pivot,
-        as Simulation.plate_load tells.
+        """The line when the plate is displaced and turned about its pivot, as Simulation.plate_load tells.
+
+        Args:
+            dx, dy: displacement, m.
+            angle: turn, rad, counter-clockwise.
+
+        Returns:
+            m, shape (n, 2).
+
+        Example:
+            print(granperi.Plate.floor(0, 1).placed(0.0, 0.1))
         """
         ...
 
     def at(self, time: float) -> np.ndarray:
-        """m, shape (n, 2): the line at this time [s], as far as the motion is prescribed."""
+        """The line at a time, as far as the motion is prescribed.
+
+        Args:
+            time: s.
+
+        Returns:
+            m, shape (n, 2).
+
+        Example:
+            gate = granperi.Plate.gate(0.04, height=0.05, lift_time=0.1)
+            print(gate.at(0.1)[:, 1].min(), "m above the floor")
+
+        Restrictions:
+            Where the host or a load has moved a plate, only Simulation.plate_load knows.
+        """
         ...
 
     @classmethod
     def floor(cls, x_left: float, x_right: float, y: float=0.0, **more: Unpack[PlateValues]) -> 'Plate':
-        """A floor at the height y [m] from x_left to x_right [m], material above it."""
+        """A level floor, material above it.
+
+        Args:
+            x_left, x_right: its ends, m, finite, in any order.
+            y: its height, m, finite.
+            **more: other parameters of Plate, such as friction.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentTypeError: a name that does not exist, or a value that is not a number.
+
+        Example:
+            sim.add_plate(granperi.Plate.floor(-1, 1, y=-0.2, friction="coulomb", wall_mu=0.3))
+        """
         ...
 
     @classmethod
     def wall(cls, x: float, y_bottom: float, y_top: float, material: str='right', **more: Unpack[PlateValues]) -> 'Plate':
-        """An upright wall at x [m] with the material on its "left" or "right"."""
+        """An upright wall.
+
+        Args:
+            x: its place, m, finite.
+            y_bottom, y_top: its ends, m, finite, in any order.
+            material: "left" or "right", the side on which the material is.
+            **more: other parameters of Plate, such as friction.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentTypeError: another material, a name that does not exist, or a value that is not a number.
+
+        Example:
+            sim.add_plate(granperi.Plate.wall(0.06, 0.0, 0.1, "left", friction="free_slip"))
+        """
         ...
 
     @classmethod
     def gate(cls, x: float, height: float, lift_time: float, material: str='right', spacing: float=0.0025, **more: Unpack[PlateValues]) -> 'Plate':
         """A smooth upright gate on the floor y = 0 that is lifted with uniform acceleration.
 
-        It clears the height [m] of its column within lift_time [s], and goes on until it is six spacings [m] above it.
+        It clears the height of its column within lift_time, and goes on until it is six spacings above it.
+
+        Args:
+            x: its place, m, finite.
+            height: of the column that it holds, m, finite, above 0.
+            lift_time: s, finite, above 0.
+            material: "left" or "right", the side on which the material is.
+            spacing: of the simulation, m, finite, above 0.
+            **more: other parameters of Plate, such as friction.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentError: height, lift_time or spacing not above 0.
+            ArgumentTypeError: another material, or a value that is not a number.
+
+        Example:
+            sim.add_plate(granperi.Plate.gate(0.05, height=0.05, lift_time=0.1, material="left", spacing=0.01))
         """
         ...
 
     @classmethod
     def line(cls, points: Any, closed: bool=False, material: str='right', **more: Unpack[PlateValues]) -> 'Plate':
-        """A line through points [m], shape (n, 2). closed: on to the first point again, if the last is not that already.
+        """A line of any shape through points.
 
-        material: the side on which it is, "right" or "left" of the way (a profile of terrain from left to right has it on
-        the left), of a closed line "inside" or "outside". The plate's own way has it on its right, so it may be the other
-        one round: surface_velocity goes by the plate's.
+        The plate's line has the material on its right, so it may run against the order of the points: surface_velocity
+        is along the plate's line.
+
+        Args:
+            points: m, shape (n, 2), n at least 2, finite.
+            closed: back to the first point, if the last one is not there already.
+            material: its side, "right" or "left" as seen along the points (a profile of terrain from left to right has it on
+                the left), or "inside" or "outside" of a closed line.
+            **more: other parameters of Plate, such as friction or omega.
+
+        Returns:
+            The Plate, to be added by Simulation.add_plate.
+
+        Raises:
+            ArgumentTypeError: points of another shape, another material.
+            ArgumentError: "inside" or "outside" of a line that is not closed.
+
+        Example:
+            slope = granperi.Plate.line([[-0.5, 0.3], [0.0, 0.0], [0.5, 0.0]], material="left")
         """
         ...
 
