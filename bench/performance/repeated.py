@@ -50,7 +50,7 @@ def _refinement(results: Collection) -> list[tuple[str, str, str]]:
     """What half the spacing costs."""
     own = {n: result for n in runs.SCENES["a1.25"].resolutions if (result := results(runs.collapse("a1.25", n)))}
     ratios = [measures.cost(own[2 * n]) / measures.cost(own[n]) for n in own if n >= 16 and 2 * n in own]
-    least, most = _ends(ratios, 0)
+    least, most = _ends(ratios, 1)
     return [
         ("refinement.least", "half the spacing, from L/dl = 16 to 128: CPU time, times, least", least),
         ("refinement.most", "most", most),
