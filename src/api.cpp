@@ -211,18 +211,11 @@ gp_status gp_save(gp_sim *sim, const char *path) {
         const auto save = [&](const World *world) {
             io::save_checkpoint(path, s, world, sim->output ? sim->output->position(s.world()) : sim->left_off);
         };
-        if (sim->output)
-            s.prepare(); // the place in the file is told by the world
-        if (!s.progress().started) {
-            if (s.crossing())
-                run_on_first(*s.crossing(), [&] { save(nullptr); });
-            else
-                save(nullptr);
-            return GP_OK;
-        }
-        s.prepare();
-        const World *whole = s.whole();
-        on_first(s.world(), [&] { save(whole); });
+        const bool started = s.progress().started;
+        if (started || sim->output) // the place in the file is told by the world
+            s.prepare();
+        const World *whole = started ? s.whole() : nullptr;
+        on_first(s.crossing(), [&] { save(whole); });
         return GP_OK;
     });
 }
@@ -278,10 +271,7 @@ gp_status gp_output_close(gp_sim *sim) {
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");
         s.sink = nullptr;
         const std::unique_ptr<io::Output> closing = std::move(sim->output);
-        if (s.crossing()) // not by the world: a change of the scene before the first step leaves none
-            run_on_first(*s.crossing(), [&] { closing->close(); });
-        else
-            closing->close();
+        on_first(s.crossing(), [&] { closing->close(); }); // a change of the scene may have left no world
         return GP_OK;
     });
 }

@@ -18,10 +18,4 @@ inline Sim &readable(gp_sim *handle) {
     return handle->sim;
 }
 
-// What the first process has found goes to all.
-template <class T> void tell_all(const Sim &sim, T *values, int64_t count) {
-    if (sim.crossing())
-        sim.crossing()->broadcast(values, count * static_cast<int64_t>(sizeof(T)), 0);
-}
-
 } // namespace gp

@@ -168,7 +168,7 @@ gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height
                 if (!surface.height(x[k], height[k]))
                     height[k] = 0;
         });
-        tell_all(s, height, n);
+        tell_all(s.crossing(), height, n);
         return GP_OK;
     });
 }
@@ -183,7 +183,7 @@ gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, 
             throw make_error(GP_E_ARGUMENT, "right = %d: expected another column than left", right);
         require_stations(n, "y", y, "x", x);
         find_interface(s.world(), left, right, n, y, x);
-        tell_all(s, x, n);
+        tell_all(s.crossing(), x, n);
         return GP_OK;
     });
 }

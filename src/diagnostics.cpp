@@ -107,8 +107,7 @@ gp_state measure_sums(const World &world) {
     s.sound_speed = world.constants.sound_speed;
     s.gravity_x = world.constants.gravity.x();
     s.gravity_y = world.constants.gravity.y();
-    if (world.crossing)
-        world.crossing->broadcast(&s, sizeof s, 0);
+    tell_all(world.crossing, &s);
     return s;
 }
 
@@ -137,8 +136,7 @@ void measure_parts(const World &world, uint32_t parts, gp_state &s) {
     }
     if (parts & GP_STATE_DRIFT)
         s.volume_drift = drift_of(world, measure_packing(world, Part::flowing));
-    if (world.crossing)
-        world.crossing->broadcast(&s, sizeof s, 0);
+    tell_all(world.crossing, &s);
 }
 
 void leave_out(uint32_t parts, gp_state &s) {

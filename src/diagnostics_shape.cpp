@@ -190,10 +190,7 @@ std::vector<char> connected_deposit_of_parts(const World &world) {
     collect(&crossing, parts);
     std::vector<double> largest;
     on_first(world, [&] { largest = labels_of_largest(parts, links); });
-    auto size = static_cast<int64_t>(largest.size());
-    crossing.broadcast(&size, sizeof size, 0);
-    largest.resize(static_cast<std::size_t>(size));
-    crossing.broadcast(largest.data(), size * static_cast<int64_t>(sizeof(double)), 0);
+    tell_all_of(crossing, largest);
     std::vector<char> connected(static_cast<std::size_t>(p.count));
     for (int64_t i = 0; i < p.count; ++i)
         connected[i] = std::binary_search(largest.begin(), largest.end(), label[i]);

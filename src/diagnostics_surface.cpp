@@ -33,7 +33,8 @@ constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 Surface::Surface(const World &world, const std::vector<char> &connected) : spacing_(world.constants.spacing) {
-    if (const Period &period = world.constants.period) {
+    const Period &period = world.constants.period;
+    if (period) {
         x_min_ = period.x_min;
         x_max_ = period.x_min + period.length;
     }
@@ -41,27 +42,24 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
     std::vector<int64_t> place_of(world.listed.empty() ? 0 : p.count); // in the lists, where a sort was undone
     for (std::size_t place = 0; place < place_of.size(); ++place)
         place_of[world.listed[place]] = static_cast<int64_t>(place);
-    // Of a part of a world, the images are other processes' particles; those across the ends of a period are made here.
-    const auto add = [&](int64_t source, const Vector &at) {
+    const auto add = [&](int64_t i, const Vector &at) {
         points_.push_back({at.x(), at.y(), -1});
         left_ = std::min(left_, at.x());
         right_ = std::max(right_, at.x());
         if (!world.walls.contact_start.empty())
-            add_mirrored(world.walls, place_of.empty() ? source : place_of[source], at);
+            add_mirrored(world.walls, place_of.empty() ? i : place_of[i], at);
     };
-    for (int64_t i = 0; i < p.count; ++i)
-        if (connected[i])
-            add(i, {p.x[i], p.y[i]});
-    if (!world.crossing) {
-        for (int64_t i = p.count; i < p.count + world.images.count; ++i)
-            if (const int64_t source = world.images.source(i);
-                connected[source] && is_seen_across(world, source, p.x[i]))
-                add(source, {p.x[i], p.y[i]});
-    } else if (world.constants.period) {
-        for_each_image(world, [&](int64_t i, double shift) {
-            if (connected[i])
-                add(i, {p.x[i] + shift, p.y[i]});
-        });
+    // What is beyond one end of a period comes in at the other, and what is near an end is seen across it, too.
+    const double near = 2 * (world.constants.reach + world.skin);
+    for (int64_t i = 0; i < p.count; ++i) {
+        if (!connected[i])
+            continue;
+        const double x = period ? p.x[i] - period.shift_of(p.x[i]) : p.x[i];
+        add(i, {x, p.y[i]});
+        if (period && x - x_min_ <= near)
+            add(i, {x + period.length, p.y[i]});
+        if (period && x_max_ - x <= near)
+            add(i, {x - period.length, p.y[i]});
     }
     if (world.crossing) {
         collect(world.crossing, points_);
@@ -70,15 +68,6 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
                 left_ = std::min(left_, point.x);
                 right_ = std::max(right_, point.x);
             }
-    }
-    // What moves alike needs no new lists, and may have left the period as a whole since the last ones: it is seen where it is.
-    if (std::isfinite(x_min_) && left_ <= right_) {
-        const double length = x_max_ - x_min_;
-        const double away = right_ < x_min_  ? -std::ceil((x_min_ - right_) / length)
-                            : left_ > x_max_ ? std::ceil((left_ - x_max_) / length)
-                                             : 0;
-        x_min_ += away * length;
-        x_max_ += away * length;
     }
     on_first(world, [&] {
         number_walls(world.walls);

@@ -69,8 +69,7 @@ Energies measure_energies(const World &world) {
     EnergySums sums(world);
     for_each_stretch(world, {}, [&](const World &stretch, const char *) { sums.add(stretch); });
     Energies e = sums.all();
-    if (world.crossing)
-        world.crossing->broadcast(&e, sizeof e, 0);
+    tell_all(world.crossing, &e);
     return e;
 }
 

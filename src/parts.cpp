@@ -111,38 +111,33 @@ std::string text_of_largest(Crossing &crossing, double &value, const std::string
     crossing.combine(&first, 1, nullptr, 0);
     value = largest;
     const int from = static_cast<int>(-first);
-    auto size = static_cast<int64_t>(text.size());
-    crossing.broadcast(&size, sizeof size, from);
     std::string chosen = text;
-    chosen.resize(static_cast<std::size_t>(size));
-    crossing.broadcast(chosen.data(), size, from);
+    tell_all_of(crossing, chosen, from);
     return chosen;
 }
 
 void run_on_first(Crossing &crossing, const std::function<void()> &body) {
-    int64_t head[2] = {GP_OK, 0}; // status, length of the text
+    gp_status status = GP_OK;
     std::string text;
     if (crossing.rank() == 0) {
         try {
             body();
         } catch (const Error &error) {
-            head[0] = error.status();
+            status = error.status();
             text = error.what();
         } catch (const std::bad_alloc &) {
-            head[0] = GP_E_MEMORY;
+            status = GP_E_MEMORY;
             text = "out of memory";
         } catch (const std::exception &error) {
-            head[0] = GP_E_INTERNAL;
+            status = GP_E_INTERNAL;
             text = error.what();
         }
-        head[1] = static_cast<int64_t>(text.size());
     }
-    crossing.broadcast(head, sizeof head, 0);
-    if (head[0] == GP_OK)
+    tell_all(&crossing, &status);
+    if (status == GP_OK)
         return;
-    text.resize(static_cast<std::size_t>(head[1]));
-    crossing.broadcast(text.data(), head[1], 0);
-    throw Error(static_cast<gp_status>(head[0]), text);
+    tell_all_of(crossing, text);
+    throw Error(status, text);
 }
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <type_traits>
 
 #include "binned_sum.hpp"
 #include "world.hpp"
@@ -30,13 +31,31 @@ void resize_part(World &world, int64_t count);
 
 // Runs body on the first process; all throw what it throws there.
 void run_on_first(Crossing &crossing, const std::function<void()> &body);
-// The same for a world that may be no part: then here.
-template <class Body> void on_first(const World &world, const Body &body) {
-    if (world.crossing)
-        run_on_first(*world.crossing, body);
+// The same where there may be no others (NULL, a world that is no part): then here.
+template <class Body> void on_first(Crossing *crossing, const Body &body) {
+    if (crossing)
+        run_on_first(*crossing, body);
     else
         body();
 }
+template <class Body> void on_first(const World &world, const Body &body) {
+    on_first(world.crossing, body);
+}
+
+// What one process has goes to all, if there are others.
+template <class T> void tell_all(Crossing *crossing, T *values, int64_t count = 1, int from = 0) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (crossing)
+        crossing->broadcast(values, count * static_cast<int64_t>(sizeof(T)), from);
+}
+// As many as there are: of a vector or a text.
+template <class Values> void tell_all_of(Crossing &crossing, Values &values, int from = 0) {
+    auto size = static_cast<int64_t>(values.size());
+    tell_all(&crossing, &size, 1, from);
+    values.resize(static_cast<std::size_t>(size));
+    tell_all(&crossing, values.data(), size, from);
+}
+
 // What is done on the first process while the others send: it goes on taking what they send when something fails, and all throw
 // that in the end.
 class OnFirst {

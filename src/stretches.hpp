@@ -38,32 +38,6 @@ void take_in_order(Crossing &crossing, const OrderedRows &own, const TakeRows &b
 // The place in the order of cells of the k-th particle; columns: to add to its column.
 void key_of_cell(const World &part, int64_t k, int64_t columns, double *key);
 
-// How far beyond the ends of a period images belong to a surface: those that all schemes have (update_neighbors.cpp). Positions
-// are those that the lists were made of.
-inline double reach_across(const World &world) {
-    return 2 * (world.constants.reach + world.skin);
-}
-inline bool is_seen_across(const World &world, int64_t source, double image_x) {
-    if (world.constants.scheme != Scheme::implicit)
-        return true;
-    const Period &period = world.constants.period;
-    const double x = world.list_origin.x[source];
-    return (image_x > x ? x - period.x_min : period.x_min + period.length - x) <= reach_across(world);
-}
-
-// Calls found(i, shift) for these images of the particles here, which a process alone has made.
-template <class Found> void for_each_image(const World &part, const Found &found) {
-    const Period &period = part.constants.period;
-    const double reach = reach_across(part);
-    for (int64_t i = 0; i < part.particles.count; ++i) {
-        const double x = part.list_origin.x[i];
-        if (x - period.x_min <= reach)
-            found(i, period.length);
-        if (period.x_min + period.length - x <= reach)
-            found(i, -period.length);
-    }
-}
-
 // Numbers of this process, in pieces of a size at most, to the first one: body gets those of all, piece by piece.
 void collect_numbers(Crossing &crossing, const double *own, int64_t count,
                      const std::function<void(int64_t all)> &make_room,

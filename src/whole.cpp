@@ -101,10 +101,7 @@ std::vector<double> common_of_first(Crossing &crossing, const World *first) {
     std::vector<double> numbers;
     if (first)
         numbers = common_of(*first);
-    auto size = static_cast<int64_t>(numbers.size());
-    crossing.broadcast(&size, sizeof size, 0);
-    numbers.resize(static_cast<std::size_t>(size));
-    crossing.broadcast(numbers.data(), size * static_cast<int64_t>(sizeof(double)), 0);
+    tell_all_of(crossing, numbers);
     return numbers;
 }
 

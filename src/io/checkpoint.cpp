@@ -527,10 +527,8 @@ void read_all(CheckpointReader &file, const std::function<Sim &(const gp_config 
     position = read_position(file, check);
     std::unique_ptr<World> world;
     const auto read = [&] { world = read_world(file, check, sim.scene()); };
-    if (progress.started && sim.crossing())
-        run_on_first(*sim.crossing(), read);
-    else if (progress.started)
-        read();
+    if (progress.started)
+        on_first(sim.crossing(), read);
     sim.resume(std::move(world), progress);
 }
 

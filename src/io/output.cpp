@@ -299,8 +299,7 @@ Output::Output(const std::string &path, const gp_output &options, const World &w
             else
                 impl.times.pass(world);
         });
-    if (world.crossing)
-        world.crossing->broadcast(&impl.times, sizeof impl.times, 0);
+    tell_all(world.crossing, &impl.times);
     if (!append && options.every_seconds > 0)
         write(world);
 }
