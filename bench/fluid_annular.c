@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "fluidity.h"
+#include "rings.h"
 
 static const double pi = 3.14159265358979323846, omega = 0.4; /* rad/s */
 enum { SEGMENTS = 48, PLATES = 24, SAMPLES = 10, BINS = 256 };
@@ -46,26 +47,6 @@ static void add_outer_ring(gp_sim *sim, double radius, double spacing) {
         p.knot_y = y;
         CHECK(gp_add_plate(sim, &p, NULL));
     }
-}
-
-/* Rings of particles, every other one turned by half of their distance. */
-static void add_rings(gp_sim *sim, double inner, double outer, int rings, double spacing) {
-    enum { MOST = 100000 };
-    double *x = malloc(2 * MOST * sizeof *x), *y = x + MOST;
-    int64_t n = 0;
-    int j, k;
-    if (!x)
-        exit(1);
-    for (j = 0; j < rings; ++j) {
-        const double r = inner + (outer - inner) * (j + 0.5) / rings;
-        const int count = (int)round(2 * pi * r / spacing);
-        for (k = 0; k < count && n < MOST; ++k, ++n) {
-            x[n] = r * cos(2 * pi * (k + 0.5 * (j % 2)) / count);
-            y[n] = r * sin(2 * pi * (k + 0.5 * (j % 2)) / count);
-        }
-    }
-    CHECK(gp_add_particles(sim, 1, n, x, y, NULL, NULL, NULL));
-    free(x);
 }
 
 typedef struct sums {
@@ -114,7 +95,7 @@ void fluid_annular(const choices *c) {
     CHECK(gp_add_material(sim, &m, NULL));
     ring = add_inner_ring(sim, inner);
     add_outer_ring(sim, outer, spacing);
-    add_rings(sim, inner, outer * cos(pi / PLATES), rows, spacing);
+    add_rings(sim, 1, inner, outer * cos(pi / PLATES), rows, spacing);
     CHECK(gp_run(sim, c->end - span));
     before = fluid_load(sim, ring).impulse_torque;
     for (k = 1; k <= SAMPLES; ++k) {
@@ -126,7 +107,7 @@ void fluid_annular(const choices *c) {
     moment = -(fluid_load(sim, ring).impulse_torque - before) / span;
     for (k = 0; k < rows; ++k) {
         const double right = fluid_annulus_velocity(&exact, inner + (k + 0.5) * spacing) / (omega * inner);
-        worst = fmax(worst, fabs(s.speed[k] / s.count[k] / (omega * inner) - right));
+        worst = fmax(worst, fabs(s.speed[k] / fmax(1, s.count[k]) / (omega * inner) - right));
     }
     printf("pressure %.5g Pa\n", exact.pressure);
     printf("torque %.5g N\n", moment);

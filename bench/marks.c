@@ -31,15 +31,6 @@ static double mark_of(const double *sorted, int64_t n, double share) {
     return k + 1 < n ? sorted[k] + (place - (double)k) * (sorted[k + 1] - sorted[k]) : sorted[k];
 }
 
-double mass_mark(gp_sim *sim, double share) {
-    int64_t n;
-    double *x = positions(sim, &n), mark;
-    qsort(x, (size_t)n, sizeof *x, ascending);
-    mark = mark_of(x, n, share);
-    free(x);
-    return mark;
-}
-
 double run_out_between(const extent *e, double left, double right) {
     return (e->sides == 1 ? right - e->right : (right - e->right + e->left - left) / 2) / e->reference;
 }

@@ -11,8 +11,6 @@ typedef struct extent {
     int sides;          /* to which it can run out: 1 (the right), or 2 */
 } extent;
 
-/* m: this share of the mass is on its left, linear between two particles. */
-double mass_mark(gp_sim *sim, double share);
 /* (x - L0) / L0 of what holds this share of the mass, mean of both sides. */
 double run_out_of(gp_sim *sim, const extent *e, double share);
 /* Of two places. */

@@ -53,9 +53,10 @@ static run_outs run_outs_of(gp_sim *sim, const recording *r, const gp_state *s) 
 }
 
 static void write_series(FILE *file, gp_sim *sim, const recording *r, const gp_state *s, double energy) {
-    const run_outs w = run_outs_of(sim, r, s);
+    run_outs w;
     if (!file)
         return;
+    w = run_outs_of(sim, r, s);
     fprintf(file, "%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d\n", s->time, s->peak_height,
             s->peak_x, w.most, w.nearly_all, w.tip, surface_at(sim, r->axis), s->rms_speed, s->max_speed,
             s->kinetic / energy, s->energy_error / energy, s->max_pressure, s->at_rest);

@@ -44,8 +44,6 @@ int walls_arc(double radius, double from, double to, int count, walls_point *poi
 /* Particles of material 1 on the lattice of the spacing where `inside` says so. */
 void walls_fill(gp_sim *sim, double spacing, walls_point low, walls_point high,
                 int (*inside)(double x, double y, const void *user), const void *user);
-/* The same in rings about the origin, between two radii, every other one turned by half of its particles' distance. */
-void walls_add_rings(gp_sim *sim, double inner, double outer, int rings, double spacing);
 /* A copy of a field, to be freed. */
 double *walls_field(gp_sim *sim, uint32_t bit, int64_t count);
 /* Lines of time, particles, steps, CPU seconds. */

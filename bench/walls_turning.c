@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "rings.h"
 #include "walls.h"
 
 static const double pi = 3.14159265358979323846;
@@ -129,23 +130,6 @@ void drum(const choices *c) {
 
 /* ---------------------------------------------------------------------------------------------------- annular cell */
 
-void walls_add_rings(gp_sim *sim, double from, double to, int rings, double spacing) {
-    double *x = walls_doubles(WALLS_MOST), *y = walls_doubles(WALLS_MOST);
-    int64_t n = 0;
-    int j, k;
-    for (j = 0; j < rings; ++j) {
-        const double r = from + (to - from) * (j + 0.5) / rings;
-        const int count = (int)round(2 * pi * r / spacing);
-        for (k = 0; k < count && n < WALLS_MOST; ++k, ++n) {
-            x[n] = r * cos(2 * pi * (k + 0.5 * (j % 2)) / count);
-            y[n] = r * sin(2 * pi * (k + 0.5 * (j % 2)) / count);
-        }
-    }
-    CHECK(gp_add_particles(sim, 1, n, x, y, NULL, NULL, NULL));
-    free(x);
-    free(y);
-}
-
 static const double inner = 0.04, outer = 0.066, load = 1000, turning = 1; /* m, m, Pa, rad/s */
 /* Coarse grains that bear more the faster they shear: the zone that flows is 15 mm wide. */
 static const double mu_s = 0.2, mu_2 = 0.8, i0 = 0.3, diameter = 0.01, grain_density = 2500;
@@ -229,7 +213,7 @@ void annular(const choices *c) {
     CHECK(gp_add_material(sim, &material, NULL));
     ring = add_ring(sim, points, walls_arc(inner, 0, 360, SEGMENTS, points), turning);
     add_outer_plates(sim, PLATES);
-    walls_add_rings(sim, inner, apothem, rows, spacing);
+    add_rings(sim, 1, inner, apothem, rows, spacing);
     CHECK(gp_run(sim, 0.5 * c->end));
     before = walls_load(sim, ring).impulse_torque;
     for (k = 1; k <= SAMPLES; ++k) {

@@ -7,7 +7,7 @@ from run import Program, Run
 
 PROGRAM = Program(
     "bench/walls",
-    ("bench/walls*.[ch]", "bench/plane_flow.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
+    ("bench/walls*.[ch]", "bench/rings.[ch]", "bench/plane_flow.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
 )
 
 ANGLE, END = 26, 40  # degrees, s
