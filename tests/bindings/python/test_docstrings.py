@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import needs_hdf5
 
 import granperi
 import granperi.plot
@@ -96,7 +97,7 @@ def examples():
 EXAMPLES = list(examples())
 
 
-@pytest.mark.skipif(not granperi.has_feature("hdf5"), reason="the library has no HDF5")
+@needs_hdf5
 @pytest.mark.parametrize("k", range(len(EXAMPLES)), ids=[name for name, _ in EXAMPLES])
 def test_examples_run(k, directory, report, make_block, monkeypatch):
     name, text = EXAMPLES[k]
@@ -231,7 +232,7 @@ REFUSALS = [
 ]
 
 
-@pytest.mark.skipif(not granperi.has_feature("hdf5"), reason="the library has no HDF5")
+@needs_hdf5
 @pytest.mark.parametrize("code, error", REFUSALS)
 def test_what_is_said_to_be_refused_is(code, error, directory, make_block, monkeypatch):
     monkeypatch.chdir(directory)
