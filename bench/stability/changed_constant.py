@@ -55,7 +55,7 @@ def build_library(place: Path, constant: Constant, value: str) -> Path:
                 "cmake", "-S", str(source), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                 *(f"-DGRANPERI_{option}" for option in options),
             )  # fmt: skip
-        call("cmake", "--build", str(build), "--target", "granperi", "--parallel", "1")
+        call("cmake", "--build", str(build), "--target", "granperi", "--parallel", "2")
         made = place / f"{constant.name}_{value}" / LIBRARY
         made.parent.mkdir(exist_ok=True)
         shutil.copy(build / LIBRARY, made)

@@ -80,6 +80,8 @@ it does so before 1 s, if not all. The ledger error is the largest of all runs a
 Each with a library in which it alone has half or twice its value ([constants.py](../bench/stability/constants.py)), against the
 defaults; {runs.CONSTANT_SEEDS} runs, ± is two standard errors.
 
+{verdicts.constants(collection)}
+
 {deposit.constants(collection)}
 
 ### The horizon

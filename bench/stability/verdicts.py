@@ -6,8 +6,9 @@ import math
 import runs
 import theory
 from coefficients import CRITERION, NUMERICAL
+from constants import CONSTANTS
 from markdown import significant
-from measures import QUANTITIES, between, changes, mean, root_mean_square, share_at_rest
+from measures import QUANTITIES, between, change, changes, mean, root_mean_square, share_at_rest
 from results import Collection, Result
 from sections import FLOW, REST, present
 
@@ -52,6 +53,23 @@ def criterion(results: Collection) -> list[str]:
 
 
 HEADLINE = ("peak", "bulk")  # that the first paragraph is about
+
+
+def constants(results: Collection) -> str:
+    """The same of those that are no settings."""
+    base = results(runs.base_ensemble())
+    found = [(c, value, results(runs.by_constant(c, value))) for c in CONSTANTS for value in c.others]
+    if not base or not all(result for *_, result in found):
+        return ""
+    beyond = [
+        f"`{c.name}` {value} ({QUANTITIES[column]} {one.text})"
+        for column in HEADLINE
+        for c, value, result in found
+        if abs((one := change(result, base, column)).value) > CRITERION
+    ]
+    return f"Peak and run-out of 90 % of the mass change by less than {100 * CRITERION:g} %" + (
+        f", but for {', '.join(beyond)}." if beyond else "."
+    )
 
 
 def in_short(results: Collection) -> str:
