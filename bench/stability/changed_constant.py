@@ -65,11 +65,10 @@ def build_library(place: Path, constant: Constant, value: str) -> Path:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=Path, default=ROOT / "build", help="where the program is [build]")
-    parser.add_argument("--output", help="passed on to the program")
     parser.add_argument("constant", choices=[c.name for c in CONSTANTS])
     parser.add_argument("value")
     parser.add_argument("program", help="in bench/ of the build")
-    parser.add_argument("arguments", nargs=argparse.REMAINDER)
+    parser.add_argument("arguments", nargs=argparse.REMAINDER, help="its own")
     given = parser.parse_args()
     constant = next(c for c in CONSTANTS if c.name == given.constant)
     library = build_library(given.build.resolve() / "constants", constant, given.value)

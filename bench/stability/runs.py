@@ -272,8 +272,8 @@ def varied(c: Coefficient, value: float, resolution: int = 32) -> Run:
     return ensemble((c.option, f"{value:g}"), resolution, seeds, scale)
 
 
-CONSTANT_SEEDS = 12
-COMPILE_SECONDS = 15.0  # CPU s, of what a constant is in; of all the library, before the first, some ten times as many
+CONSTANT_SEEDS = MORE_SEEDS
+COMPILE_SECONDS = 5.0  # CPU s, of what a constant is in; all of the library, before the first, takes some 150
 
 
 def by_constant(constant: Constant, value: str) -> Run:
