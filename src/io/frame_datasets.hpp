@@ -27,7 +27,8 @@ struct FrameDatasets : Hdf5Writer {
     bool single = false;
     std::vector<Element> elements;
     std::size_t observable_count = 0, wall_point_count = 0, wall_segment_count = 0;
-    std::string cells; // path of the numbers 0, 1, 2, ..., if there are any
+    std::string cells;     // path of the numbers 0, 1, 2, ..., if there are any
+    std::string wall_path; // of the walls' points in the last frame that counts
 
     // count, compression, single and elements are set before.
     void make_layout(const FrameHeader &header, const FrameRows &constant_values);
@@ -54,8 +55,7 @@ private:
     double unit = 0; // m, to which positions are rounded; 0: not at all
     std::vector<double> packed;
     Id step, time, observables;      // observables: /observables/state/value, if there are any
-    std::vector<double> wall_points; // as they were last written,
-    std::string wall_path;           // there
+    std::vector<double> wall_points; // at wall_path
 
     hid_t type_of(const Element &element) const {
         return element.integer ? H5T_STD_I64LE : single && !element.is_position() ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
