@@ -50,6 +50,8 @@ class Settings:
             config = granperi.settings("draft", 0.05).config(granperi.Config(sound_speed=10))
             print(config.spacing, config.sound_speed)
         """
+        if config is not None and not isinstance(config, Config):
+            raise ArgumentTypeError(f"config = {config!r:.80}: expected a Config, such as scene.config")
         return (config or Config()).replace(**self.values)
 
     def __str__(self) -> str:
@@ -113,6 +115,8 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Setting
         raise ArgumentTypeError(f"name = {name!r:.80}: expected one of {', '.join(_LEVELS)}")
     if name not in _LEVELS:
         raise ArgumentError(f"name = {name!r:.80}: {near_match(name, _LEVELS)}")
+    if isinstance(of, Config) or of is None:
+        raise ArgumentTypeError(f"of = {of!r:.80}: expected a Scene, the path of a scene file, or a length in m")
     length = scene_of(of).smallest_side() if isinstance(of, (Scene, str, os.PathLike)) else number("of", of)
     if not (math.isfinite(length) and length > 0):
         raise ArgumentError(f"of = {length:g}: expected a finite length above 0 m, or a scene")
