@@ -173,6 +173,10 @@ def test_the_page_needs_nothing_beside_it(made, tmp_path):
     assert {address for address in re.findall(r"https?://[^\"'<> ]+", page)} == {"http://www.w3.org/2000/svg"}
     assert page.count("<svg") == 7 and "no amplitude" in page and "within 3 %" in page
     assert made._repr_html_() in page
+    limit = made.convergence["peak_height"]
+    shown = re.search(r"<td>peak</td><td>([\d.]+) ± ([\d.]+) m</td>", page)  # the last digit of both is in the same place
+    assert len(shown[1].partition(".")[2]) == len(shown[2].partition(".")[2])
+    assert float(shown[1]) == pytest.approx(limit.limit, abs=0.06 * limit.limit_error)
     with pytest.raises(granperi.ArgumentError, match=r"expected a name that ends in .html or .json"):
         made.write(tmp_path / "report.pdf")
     with pytest.raises(granperi.FileError, match="report.html: exists: expected another name, or overwrite=True"):
