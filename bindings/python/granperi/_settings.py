@@ -77,9 +77,9 @@ class _Level:
 
 # aims: written by bench/performance/aims.py
 _LEVELS = {
-    "draft": _Level(10, 4.0, 1, 0.10, 0.064, 0.077, 0.08),
-    "standard": _Level(15, 4.0, 1, 0.05, 0.040, 0.033, 0.23),
-    "fine": _Level(25, 3.0, 1, 0.02, 0.016, 0.016, 1.02),
+    "draft": _Level(10, 4.0, 1, 0.10, 0.068, 0.079, 0.08),
+    "standard": _Level(15, 4.0, 1, 0.05, 0.039, 0.041, 0.23),
+    "fine": _Level(25, 3.0, 1, 0.02, 0.016, 0.012, 1.02),
 }
 # /aims
 
