@@ -3,7 +3,7 @@
 
     PYTHONPATH=build/python /usr/bin/python3 bench/report/pool.py bench/report/pool.jsonl
 
-Some 400 CPU s. What is there is not run again: begin with an empty file for another library.
+Some 500 CPU s. What is there is not run again: begin with an empty file for another library.
 """
 from __future__ import annotations
 
