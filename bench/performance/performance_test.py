@@ -116,6 +116,7 @@ def main() -> None:
     report, images = place.report("performance.md")
     peak = measures.reference(collection, "a1.25").value["peak"] / runs.SCENES["a1.25"].length
     assert f"{peak:.3f} ±" in report, "the table of converged solutions has the peak"
+    assert f"performance.converged.a125_peak-->{peak:.3f}<" in report, "and so have the pages that are measured against it"
     assert "holds 0 bytes" in report and "runs are missing" in report and " nan" not in report.lower()
     assert images == ["performance_growth.png"], images
     assert plots.others(place.found / "column.png", collection, ("a1.25",)), "there are points to draw"
