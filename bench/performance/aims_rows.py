@@ -1,6 +1,6 @@
 """The runs behind the aims: which collapses at which spacings and horizons, what came out, and their tables in docs/settings.md.
 
-A row of bench/performance/aims.json: scene, horizon, spacings over its width, runs; CPU s to 1 s and to rest, of the median run; "peak"
+A row of bench/performance/aims.json: scene, horizon, spacings over its width, runs; CPU s to 1 s and to rest, of the median run ("cpu_awake": with sleep = 0, to 1 s); "peak"
 and "runout": bias, its two standard errors, the error of one run, the largest one. Of the errors, relative, all but the first are
 above 0.
 """
@@ -50,6 +50,9 @@ def measure() -> list[Row]:
             row: Row = {"scene": name, "horizon": horizon, "spacings": n, "runs": runs}
             for key in ("cpu", "cpu_to_rest"):
                 row[key] = round(float(np.median([getattr(run, key) for run in done])), 2)
+            if name == "a125" and n in {of[name] for of in CHOSEN.values()}:
+                awake = [settings.run(scene, n, seed, horizon=horizon, sleep=0) for seed in range(1, runs + 1)]
+                row["cpu_awake"] = round(float(np.median([run.cpu for run in awake])), 2)
             for what, reference in zip(WHAT, converged(name), strict=True):
                 values = [getattr(run, what) for run in done]
                 row[what] = [round(float(error), 4) for error in (*settings.errors(values, reference),
@@ -70,7 +73,7 @@ def summed_up(levels: dict[str, dict[str, Any]], rows: list[Row]) -> None:
     """Writes into each level what its rows say."""
     for name, level in levels.items():
         of = {scene: chosen(rows, level, name, scene) for scene in NAMES}
-        level["cpu_seconds"] = of["a125"]["cpu"]
+        level["cpu_seconds"], level["cpu_seconds_awake"] = of["a125"]["cpu"], of["a125"]["cpu_awake"]
         for what in WHAT:
             level[f"{what}_error"] = round(max(row[what][2] for row in of.values()), 3)
             level[f"{what}_error_a125"] = round(of["a125"][what][2], 3)

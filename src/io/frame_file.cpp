@@ -160,7 +160,7 @@ struct FrameFile::Impl : FrameDatasets {
             if (!element.is_position())
                 side.add_field(element.name, element.components, element.integer,
                                element.constant ? element.path() : group + element.name);
-        side.end_frame(group + "walls");
+        side.end_frame(wall_path); // VTK's readers follow no links
     }
 
     // The XDMF file first: it lists frames that the HDF5 file has before and after.

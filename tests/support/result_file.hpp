@@ -76,6 +76,11 @@ public:
 
     bool has(const std::string &name) const { return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0; }
 
+    bool is_soft_link(const std::string &name) const {
+        H5L_info_t info;
+        return H5Lget_info(file, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_SOFT;
+    }
+
     std::vector<double> attribute(const std::string &object, const std::string &name) const {
         const hid_t attribute = H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
         const hid_t space = H5Aget_space(attribute);

@@ -159,7 +159,7 @@ inline std::string contents(const std::string &path) {
     return text.str();
 }
 
-// "" if the XDMF file is well-formed, lists `frames` frames, and every array in it exists with the size it tells.
+// "" if the XDMF file is well-formed, lists `frames` frames, and every array in it is there with the size it tells.
 inline std::string check_xdmf(const std::string &path, int64_t frames) {
     const std::string size = "Dimensions=\"";
     std::string text = contents(path);
@@ -195,6 +195,8 @@ inline std::string check_xdmf(const std::string &path, int64_t frames) {
             const std::string array = text.substr(end + 1, next - end - 1);
             if (array.compare(0, base.size(), base) != 0 || r.shape(array.substr(base.size())) != told)
                 return array + " does not have the size " + told;
+            if (r.is_soft_link(array.substr(base.size())))
+                return array + " is a link, which VTK's readers do not follow";
         }
     }
     if (text.empty() || !open.empty())

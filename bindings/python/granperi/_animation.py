@@ -26,7 +26,7 @@ def _writer(path: str, fps: int):
         return FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"] if extension == ".mp4" else None)
     if extension == ".gif":
         if importlib.util.find_spec("PIL") is None:
-            raise ArgumentError(f"{path}: .gif files are written with Pillow, which is not installed (Debian: python3-pil)")
+            raise ArgumentError(f"{path}: .gif files are written with Pillow, which is not installed (pip install pillow, or Debian's python3-pil)")
         return PillowWriter(fps=fps)
     raise ArgumentError(f"{path}: expected a name that ends in .mp4 (needs ffmpeg) or .gif (needs Pillow)")
 

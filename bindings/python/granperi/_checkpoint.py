@@ -15,7 +15,7 @@ def scene_in(path: str) -> tuple[Config, list[Material], "list[Column | int]", l
     try:
         import h5py
     except ImportError:
-        raise ImportError("what scene a checkpoint has is read with h5py (Debian: python3-h5py); or give load() the "
+        raise ImportError("what scene a checkpoint has is read with h5py (pip install h5py, or Debian's python3-h5py); or give load() the "
                           "config of the simulation that was saved") from None
     try:
         with h5py.File(path, "r") as file:

@@ -13,7 +13,7 @@ try:
     from matplotlib.collections import EllipseCollection
     from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm, Normalize
 except ImportError:
-    raise ImportError("pictures are drawn with matplotlib (Debian: python3-matplotlib)") from None
+    raise ImportError("pictures are drawn with matplotlib (pip install matplotlib, or Debian's python3-matplotlib)") from None
 
 LABELS = {
     "speed": "speed (m/s)", "shear_stress": "shear stress (Pa)", "pressure": "pressure (Pa)", "density": "density (kg/m³)",

@@ -17,7 +17,7 @@ def has_tqdm() -> bool:
 def require_tqdm(shown: bool) -> None:
     """The error of a bar that cannot be shown, before anything is begun."""
     if shown and not has_tqdm():
-        raise ImportError("a progress bar needs tqdm (Debian: python3-tqdm); or run with progress=False")
+        raise ImportError("a progress bar needs tqdm (pip install tqdm, or Debian's python3-tqdm); or run with progress=False")
 
 
 def new_bar(**options: Any) -> Any:

@@ -27,7 +27,7 @@ class _Bar:
             try:
                 from tqdm.auto import tqdm
             except ImportError:
-                raise ImportError("a progress bar needs tqdm (Debian: python3-tqdm); or report(progress=False)") from None
+                raise ImportError("a progress bar needs tqdm (pip install tqdm, or Debian's python3-tqdm); or report(progress=False)") from None
             self._bar = tqdm(total=budget, unit="s", bar_format="{desc} |{bar}| {n:.0f}/{total:g} s of the budget")
 
     def show(self, text: str) -> None:

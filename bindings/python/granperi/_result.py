@@ -196,7 +196,7 @@ class Result:
         try:
             import h5py
         except ImportError:
-            raise ImportError("result files are read with h5py (Debian: python3-h5py)") from None
+            raise ImportError("result files are read with h5py (pip install h5py, or Debian's python3-h5py)") from None
         self.path = os.fspath(path)
         try:
             self._file: "h5py.File | None" = h5py.File(self.path, "r")
@@ -332,7 +332,7 @@ class Result:
         try:
             from ._mdanalysis import universe
         except ImportError:
-            raise ImportError("Universe is of MDAnalysis (Debian: python3-mdanalysis)") from None
+            raise ImportError("Universe is of MDAnalysis (pip install MDAnalysis, or Debian's python3-mdanalysis)") from None
         self._open()
         return universe(self)
 

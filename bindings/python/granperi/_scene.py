@@ -17,6 +17,8 @@ from ._simulation import Simulation
 from ._state import History
 from ._tables import require_free, write_text
 
+HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"  # behind a block of text in a checkpoint
+
 
 class Scene:
     """A scene, independent of its spacing.
@@ -83,10 +85,14 @@ class Scene:
         path = os.fspath(path)
         try:
             with open(path, "rb") as file:
-                text = file.read().decode("utf-8")
+                content = file.read()
+            text = content.decode("utf-8")
         except OSError as error:
             raise SceneError(f"{path}: cannot be read: {error.strerror}") from None
         except UnicodeDecodeError as error:
+            if HDF5_SIGNATURE in content:
+                raise SceneError(f"{path}: is an HDF5 file, no scene: expected a scene file (TOML). granperi.Result reads a result; from a "
+                                 "checkpoint granperi.load() and granperi-mpi go on, and the run of its scene with --resume") from None
             raise SceneError(f"{path}: is not UTF-8 text (byte {error.start})") from None
         return cls.parse(text, path)
 
@@ -169,7 +175,7 @@ class Scene:
         try:
             sim = Simulation(config)
         except Error as error:
-            raise SceneError(f"{self.name}{self._config_line}, [config]: {error}") from None
+            raise self._config_error(error) from None
         materials: dict[Any, int] = {0: 0}
         order = sorted(self._parts, key=lambda part: part.kind != "material")  # stable: materials first
         for part in order:
@@ -179,6 +185,9 @@ class Scene:
                 sim.close()
                 raise SceneError(f"{part.where()}: {error}") from None
         return sim
+
+    def _config_error(self, error: object) -> SceneError:
+        return SceneError(f"{self.name}{self._config_line}, [config]: {error}")
 
     @property
     def fixed_spacing(self) -> bool:

@@ -71,7 +71,8 @@ def _dark(path: "str | os.PathLike[str]") -> np.ndarray:
     try:
         from PIL import Image
     except ImportError:
-        raise ImportError("the image of a mask is read with Pillow (Debian: python3-pil); or give the mask as an array") from None
+        raise ImportError("the image of a mask is read with Pillow (pip install pillow, or Debian's python3-pil); or give the "
+                          "mask as an array") from None
     try:
         with open(path, "rb") as file, Image.open(file) as image:
             image = image.convert("RGBA")

@@ -31,6 +31,8 @@ def directory(tmp_path_factory):
     (directory / "empty.h5").touch()
     (directory / "empty.gpc").touch()
     (directory / "text.h5").write_text("no numbers\n")
+    (directory / "noise.toml").write_bytes(b"[run\xff]\n")
+    (directory / "sleeps.toml").write_text("[run]\nend = 1\n\n[config]\nspacing = 0.01\nsleep = 1\n")
     (directory / "cut.h5").write_bytes((directory / "result.h5").read_bytes()[:5000])
     (directory / "cut.gpc").write_bytes((directory / "result.gpc").read_bytes()[:-100])
     (directory / "interrupted.part").mkdir()
@@ -112,6 +114,8 @@ MISTAKES = [
     (lambda: block().particles("sped"), "field 'sped' does not exist: did you mean 'speed'?"),
     (lambda: Plate.wall(0, 0, 1, "up"), "material = 'up': expected 'left' or 'right'"),
     (lambda: granperi.settings("medium", 0.05), "name = 'medium': Valid: draft, standard, fine"),
+    (lambda: granperi.settings("draft", 0.05, 4.0), "processes = 4.0: expected a whole number"),
+    (lambda: granperi.settings("draft", 0.05, 0), "processes = 0: expected 1 or more, or None for a run without MPI"),
     # numbers
     (lambda: Simulation(spacing=-0.01), "gp_config.spacing = -0.01: expected a number from"),
     (lambda: Simulation(spacing=2.5).add_column(width=0.08, height=0.05),  # in mm
@@ -162,7 +166,9 @@ MISTAKES = [
     (lambda: scene().write("scene.toml"), "scene.toml exists: name another file, or say overwrite=True to replace it"),
     # scene files
     (lambda: Scene.read("nothing.toml"), "nothing.toml: cannot be read: No such file or directory"),
-    (lambda: Scene.read("result.h5"), "result.h5: is not UTF-8 text"),
+    (lambda: Scene.read("result.h5"), "result.h5: is an HDF5 file, no scene: expected a scene file (TOML). granperi.Result reads a result"),
+    (lambda: Scene.read("result.gpc"), "from a checkpoint granperi.load() and granperi-mpi go on, and the run of its scene with --resume"),
+    (lambda: Scene.read("noise.toml"), "noise.toml: is not UTF-8 text (byte 4)"),
     (lambda: parsed("[[colum]]"), "s.toml, line 1: unknown table or key 'colum': did you mean 'column'?"),
     (lambda: parsed("[column]\nwidth = 1"), "s.toml, line 1: expected [[column]] with two brackets, as there may be several"),
     (lambda: parsed("[config]\nspacing = "), "s.toml: is not TOML: "),
@@ -284,6 +290,9 @@ def test_a_doubtful_scene_is_warned_of(scene, text):
     (("info", "--plan"), 2, "--plan: expected a scene file"),
     (("run", "scene.toml", "--output", "result.h5"), 1, "result.h5 exists: "),
     (("run", "scene.toml", "--end", "-1"), 2, "end = -1"),
+    (("run", "scene.toml", "--output", "new.h5", "--mpi", "0"), 2, "--mpi 0: expected a number of processes, 1 or more"),
+    (("run", "sleeps.toml", "--mpi", "4"), 2, "sleeps.toml, line 4, [config]: gp_config.sleep = 1: expected 0 with --mpi, nothing sleeps on "
+     "several processes. Set sleep = 0 there, as granperi.settings(..., processes=4) does, or leave it out"),
     (("run", "scene.toml", "--resume", "--overwrite"), 2, "not allowed with argument"),
     (("sweep",), 2, "expected a scene file and at least one --set KEY=VALUE,VALUE"),
     (("sweep", "scene.toml", "--set", "config.spacing"), 2, "expected KEY=VALUE,VALUE"),
