@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of several processes: mpi_test.py same_values|restarts|program|kill|memory, with the programs' paths as options."""
+"""Tests of several processes: mpi_test.py same_values|restarts|program|kill|memory|failing, with the programs' paths as options."""
 import argparse
 import os
 import pathlib
@@ -109,6 +109,12 @@ class Tests:
             each = (taken[1][k] - taken[0][k]) / (taken[1][0] - taken[0][0])
             self.check(each < 250, f"a {what} takes {each:.0f} bytes for each particle more")
 
+    def failing(self):
+        """One process runs out of memory: all are told, and none waits for ever."""
+        for ranks in 2, 3:
+            result = self.run(ranks, self.options.failing, self.folder, self.options.runs)
+            self.check(result.returncode == 0, result.stdout.strip() or f"{ranks} processes", result)
+
     def start(self, ranks, *arguments):
         return subprocess.Popen(self.command(ranks, *arguments), cwd=self.folder, env=ENVIRONMENT, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -208,12 +214,14 @@ class Tests:
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("check", choices=["same_values", "restarts", "program", "kill", "memory"])
+    parser.add_argument("check", choices=["same_values", "restarts", "program", "kill", "memory", "failing"])
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--same-values")
     parser.add_argument("--restarts")
     parser.add_argument("--program")
     parser.add_argument("--memory")
+    parser.add_argument("--failing")
+    parser.add_argument("--runs", type=int, default=60)
     parser.add_argument("--kills", type=int, default=4)
     options = parser.parse_args()
     if h5py is None and options.check in ("program", "kill"):
