@@ -221,7 +221,7 @@ def main():
     parser.add_argument("--program")
     parser.add_argument("--memory")
     parser.add_argument("--failing")
-    parser.add_argument("--runs", type=int, default=60)
+    parser.add_argument("--runs", type=int, default=40)
     parser.add_argument("--kills", type=int, default=4)
     options = parser.parse_args()
     if h5py is None and options.check in ("program", "kill"):
