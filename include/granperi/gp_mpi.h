@@ -10,7 +10,7 @@
  *   callbacks          are called on each process, and have to return the same everywhere.
  * States, loads, surfaces and interfaces are those of the whole, on every process; for them and for frames the first process needs
  * about 120 bytes for each particle of the whole. At the first step, or the first reading before it, for gp_save and for gp_load_mpi
- * it puts the whole together, with about 700, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
+ * it puts the whole together, with about 600, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
  * two states do. Files are written by the first process, in the layout of a process alone: either goes on from the other's, on any
  * number of processes.
  *
