@@ -122,8 +122,8 @@ void gp_destroy(gp_sim *sim) {
 }
 
 gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32_t *id) {
+    put_id(id, 0);
     return guard_together(sim, [&] {
-        put_id(id, 0);
         Sim &s = outside_callback(sim, "gp_add_material");
         put_id(id, s.add_material(complete(material, default_material(), "gp_material")));
         return GP_OK;
@@ -131,8 +131,8 @@ gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32_t *id)
 }
 
 gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id) {
+    put_id(id, 0);
     return guard_together(sim, [&] {
-        put_id(id, 0);
         Sim &s = outside_callback(sim, "gp_add_column");
         put_id(id, s.add_column(complete(column, default_column(), "gp_column")));
         return GP_OK;
@@ -141,16 +141,16 @@ gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id) {
 
 gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                            const double *vy, int32_t *id) {
+    put_id(id, 0);
     return guard_together(sim, [&] {
-        put_id(id, 0);
         put_id(id, outside_callback(sim, "gp_add_particles").add_particles(material, n, x, y, vx, vy));
         return GP_OK;
     });
 }
 
 gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id) {
+    put_id(id, 0);
     return guard_together(sim, [&] {
-        put_id(id, 0);
         Sim &s = outside_callback(sim, "gp_add_plate");
         put_id(id, s.add_plate(complete(plate, default_plate(), "gp_plate")));
         return GP_OK;
