@@ -279,7 +279,14 @@ OutputPosition read_position(CheckpointReader &file, const Checker &check) {
     return t.at;
 }
 
-void read_all(CheckpointReader &file, const std::function<Sim &(const gp_config &)> &create, OutputPosition &position) {
+struct Loaded {
+    Sim *sim = nullptr;
+    std::unique_ptr<World> world; // of several processes, the first one's
+    Progress progress;
+};
+
+Loaded read_all(CheckpointReader &file, const std::function<Sim &(const gp_config &)> &create,
+                OutputPosition &position) {
     const Checker check(file);
     Sim &sim = read_scene(file, check, create);
     Progress progress;
@@ -287,11 +294,10 @@ void read_all(CheckpointReader &file, const std::function<Sim &(const gp_config 
     check.require((progress.told & ~Warnings::all_kinds) == 0, "warnings of an unknown kind");
     check.not_negative("wall_seconds", progress.wall_seconds);
     position = read_position(file, check);
-    std::unique_ptr<World> world;
-    const auto read = [&] { world = read_world(file, check, sim.scene()); };
+    Loaded loaded{&sim, nullptr, progress};
     if (progress.started)
-        on_first(sim.crossing(), read);
-    sim.resume(std::move(world), progress);
+        on_first(sim.crossing(), [&] { loaded.world = read_world(file, check, sim.scene()); });
+    return loaded;
 }
 
 } // namespace
@@ -316,17 +322,21 @@ void save_checkpoint(const std::string &path, const Sim &sim, const World *world
 
 void load_checkpoint(const std::string &path, const std::function<Sim &(const gp_config &)> &create,
                      OutputPosition &position) {
-    std::vector<unsigned char> bytes = read_file(path);
-    Session session;
-    CheckpointReader file(path, std::move(bytes));
-    try {
-        read_all(file, create, position);
-    } catch (const Error &error) {
-        // What a host would be told about an argument is here about the file.
-        if (error.status() == GP_E_ARGUMENT || error.status() == GP_E_STATE || error.status() == GP_E_DIVERGED)
-            file.refuse(error.what());
-        throw;
+    Loaded loaded;
+    {
+        std::vector<unsigned char> bytes = read_file(path);
+        Session session;
+        CheckpointReader file(path, std::move(bytes));
+        try {
+            loaded = read_all(file, create, position);
+        } catch (const Error &error) {
+            // What a host would be told about an argument is here about the file.
+            if (error.status() == GP_E_ARGUMENT || error.status() == GP_E_STATE || error.status() == GP_E_DIVERGED)
+                file.refuse(error.what());
+            throw;
+        }
     }
+    loaded.sim->resume(std::move(loaded.world), loaded.progress); // without the file, 125 bytes a particle and more
 }
 
 #endif

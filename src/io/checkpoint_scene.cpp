@@ -104,7 +104,9 @@ void read_bodies(CheckpointReader &file, const Checker &check, Sim &sim) {
         } else {
             check.require(count > 0 && count <= static_cast<double>(particles - first),
                           format_text("set %zu of particles has %g of %zu", k, count, particles - first));
-            sim.add_particles(t.material[k], t.count[k], &t.x[first], &t.y[first], &t.vx[first], &t.vy[first]);
+            const bool own = !sim.crossing() || sim.crossing()->rank() == 0; // each process adds its own
+            sim.add_particles(t.material[k], own ? t.count[k] : 0, &t.x[first], &t.y[first], &t.vx[first],
+                              &t.vy[first]);
             first += static_cast<std::size_t>(t.count[k]);
         }
     }
