@@ -146,10 +146,10 @@ def section(results: Collection, drawn_figure: str) -> str:
     return f"""Columns of glass beads released at once, L = {runs.LENGTH:g} m (one side: half of that, from a smooth wall on; L/dl is that of the
 two-sided column with the same spacing), in ensembles whose particles start up to {runs.JITTER:g} dl beside their places; ± is two
 standard errors. "Off" is from the finest run of the case, of the narrower horizons from that of the default. The highest pressure is
-that of any particle of all runs from 0.05 s on: of a grain that the floor stops, ρ c v, a step long, or of one at the front's foot
-that is squeezed onto the floor among grains without pressure; "of means" that of the means of a particle and its neighbours within
-4 dl by the method's weight, which of a column at rest are 0.90, 0.95, 0.97 ρ g H at L/dl = 16, 32, 64. "Mean
-distance" is that of the material from the middle, or the wall, in mid-flow.
+that of any particle of all runs from 0.05 s on: of a grain alone that the floor stops, ρ c v, for a step, or of one at the front's
+foot that is squeezed onto the floor among grains without pressure, where the density diffusion has half its pairs. "Of means" is
+that of the means of a particle and its neighbours within 4 dl by the method's weight, which of a column at rest are 0.90, 0.95,
+0.97 ρ g H at L/dl = 16, 32, 64. "Mean distance" is that of the material from the middle, or the wall, in mid-flow.
 
 {drawn_figure}
 
