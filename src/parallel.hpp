@@ -23,11 +23,12 @@ template <int64_t Size = block_size> int64_t block_count(int64_t n) {
 // Threads that a simulation uses when its config says 0.
 int default_threads();
 
-// Work that is shared out: run(body, begin, end) for shares of `blocks` blocks.
+// Work that is shared out: run(body, begin, end) for shares of `blocks` blocks. A thread gets, as far as may be, the same part of
+// the blocks in each loop, and so finds in its cache what it has left there.
 struct SharedWork {
     void (*run)(const void *body, int64_t begin, int64_t end);
     const void *body;
-    int64_t blocks, share; // share: blocks that a thread takes at a time
+    int64_t blocks;
 };
 void share_out(const SharedWork &work, int threads);
 
@@ -40,12 +41,9 @@ template <class Run> void for_each_share(int threads, int64_t blocks, const Run 
         run(0, blocks);
         return;
     }
-    // Blocks are not alike (what flows has more to do, and lies above what rests), and a processor may be taken away for
-    // a while: whoever is done takes the next share. Were they all alike, each thread would have so many:
-    constexpr int64_t turns = 8;
-    share_out({[](const void *it, int64_t begin, int64_t end) { (*static_cast<const Run *>(it))(begin, end); }, &run,
-               blocks, std::max<int64_t>(1, blocks / (useful * turns))},
-              useful);
+    share_out(
+        {[](const void *it, int64_t begin, int64_t end) { (*static_cast<const Run *>(it))(begin, end); }, &run, blocks},
+        useful);
 }
 
 // Calls body(block, begin, end) for the blocks of n items.

@@ -223,7 +223,7 @@ void collide(World &world) {
     else
         world.images.copy(world.colliding);
 
-    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) {
+    for_each_awake_cluster_run(world, [&](int64_t begin, int64_t end) {
         moves ? find_pushes<true>(view, begin, end) : find_pushes<false>(view, begin, end);
     });
     for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {

@@ -210,7 +210,7 @@ void run(World &world, const ExchangeView &exchange, ClusterLoop clusters) {
     if (!world.walls.plates.empty())
         hand_over(p.cyy, p.carried);
     const View view = view_of(world, exchange);
-    for_each_awake_cluster_block(world, [&](int64_t, int64_t begin, int64_t end) { clusters(view, begin, end); });
+    for_each_awake_cluster_run(world, [&](int64_t begin, int64_t end) { clusters(view, begin, end); });
     p.give_back_accelerations();
 }
 
