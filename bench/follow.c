@@ -103,7 +103,7 @@ static void write_row(FILE *table, const gp_state *s, const outcome *o, const dr
             d->largest / dl, d->rms / dl, s->at_rest, (long long)s->step);
 }
 
-static void update(outcome *o, const trial *t, const following *f) {
+static void update(outcome *o, gp_sim *sim, const trial *t, const following *f) {
     const gp_state *s = &o->state;
     const double unit = trial_density() * gravity * trial_height(t);
     if (!s->at_rest)
@@ -114,8 +114,11 @@ static void update(outcome *o, const trial *t, const following *f) {
     o->gain = fmax(o->gain, (s->kinetic + s->potential + s->elastic) / o->energy - 1);
     o->error = fmax(o->error, fabs(s->energy_error) / o->energy);
     o->pressure = fmax(o->pressure, s->max_pressure / unit);
-    if (s->time >= landed)
+    if (s->time >= landed) {
         o->late_pressure = fmax(o->late_pressure, s->max_pressure / unit);
+        if (s->max_pressure / unit > o->late_mean) /* no mean is above it */
+            o->late_mean = fmax(o->late_mean, highest_mean_pressure(sim, 4 * trial_spacing(t)) / unit);
+    }
     if (s->time >= 0.9 * f->end)
         o->latest = fmax(o->latest, o->kinetic);
 }
@@ -132,7 +135,7 @@ outcome follow(gp_sim *sim, const trial *t, const following *f) {
     if (f->table)
         fprintf(f->table, "%s\n", follow_header);
     for (row = 0;; ++row) {
-        update(&o, t, f);
+        update(&o, sim, t, f);
         if (isnan(o.early) && o.state.time > early - Nearly)
             o.early = mean_distance(sim, &e);
         if (f->table) {

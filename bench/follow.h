@@ -31,11 +31,12 @@ typedef struct outcome {
     double early;    /* mean distance from the middle, or the wall, over L0 at .1 s, in mid-flow; NAN: it was shorter */
     double pressure; /* largest pressure so far over rho g H */
     double late_pressure; /* the same from .05 s on, when the foot of the column no longer bears it */
-    double kinetic;       /* kinetic energy / E0 at the end */
-    double latest;        /* largest kinetic energy / E0 in the last tenth of the run */
-    double memory;        /* bytes, that the library holds at the end */
-    double drift;         /* dl, largest displacement since drift_from */
-    double seconds;       /* CPU s, measurements included */
+    double late_mean; /* of the means of particles and their neighbours, from then on: without single grains' blows */
+    double kinetic;   /* kinetic energy / E0 at the end */
+    double latest;    /* largest kinetic energy / E0 in the last tenth of the run */
+    double memory;    /* bytes, that the library holds at the end */
+    double drift;     /* dl, largest displacement since drift_from */
+    double seconds;   /* CPU s, measurements included */
 } outcome;
 
 extern const char *const follow_header; /* of the table */

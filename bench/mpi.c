@@ -15,24 +15,16 @@ static double cpu(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* By MPI's profiling interface: what these calls take of the processor, waiting among it. */
+/* By MPI's profiling interface: what waiting takes of the processor. The clock itself takes 0.5 us a call, 6 % of a step of 640
+ * particles on two processes. */
 static double in_mpi;
 #define TIMED(call)                                                                                                    \
     const double begun = cpu();                                                                                        \
     const int status = call;                                                                                           \
     in_mpi += cpu() - begun;                                                                                           \
     return status
-int MPI_Waitall(int n, MPI_Request *requests, MPI_Status *statuses) {
-    TIMED(PMPI_Waitall(n, requests, statuses));
-}
-int MPI_Allreduce(const void *in, void *out, int n, MPI_Datatype type, MPI_Op op, MPI_Comm comm) {
-    TIMED(PMPI_Allreduce(in, out, n, type, op, comm));
-}
-int MPI_Allgather(const void *in, int n, MPI_Datatype type, void *out, int m, MPI_Datatype other, MPI_Comm comm) {
-    TIMED(PMPI_Allgather(in, n, type, out, m, other, comm));
-}
-int MPI_Alltoall(const void *in, int n, MPI_Datatype type, void *out, int m, MPI_Datatype other, MPI_Comm comm) {
-    TIMED(PMPI_Alltoall(in, n, type, out, m, other, comm));
+int MPI_Waitany(int n, MPI_Request *requests, int *which, MPI_Status *status_of) {
+    TIMED(PMPI_Waitany(n, requests, which, status_of));
 }
 
 static void check(gp_status status) {

@@ -96,25 +96,38 @@ static double unseen_square(const sums *s) {
     return fmax(0, s->square - (seen_u + seen_v) / determinant) / s->w;
 }
 
+enum { ENOUGH = 8 }; /* neighbours: the three coefficients of a plane, and some to depart from it */
+
+static sums sums_about(const gp_particles *p, const cells *c, int64_t i, double radius) {
+    const int64_t own = cell_of(c, p->x[i], p->y[i]);
+    int64_t k, column, row;
+    sums s = {0};
+    for (row = own / c->columns - 1; row <= own / c->columns + 1; ++row)
+        for (column = own % c->columns - 1; column <= own % c->columns + 1; ++column)
+            if (row >= 0 && row < c->rows && column >= 0 && column < c->columns)
+                for (k = c->begin[row * c->columns + column]; k < c->begin[row * c->columns + column + 1]; ++k)
+                    add(&s, p, i, c->order[k], radius);
+    return s;
+}
+
+static void free_cells(cells *c) {
+    free(c->begin);
+    free(c->order);
+}
+
 roughness roughness_of(gp_sim *sim, double radius) {
-    enum { ENOUGH = 8 }; /* neighbours: the three coefficients of a plane, and some to depart from it */
     gp_particles p = {.struct_size = sizeof p};
     roughness result = {0, 0};
     double pressure2 = 0, unseen = 0, kinetic = 0;
-    int64_t counted = 0, i, k, column, row;
+    int64_t counted = 0, i;
     cells c;
     CHECK(gp_get_particles(sim, GP_FIELD_POSITION | GP_FIELD_VELOCITY | GP_FIELD_PRESSURE, &p));
     c = sort_particles(&p, radius);
     for (i = 0; i < p.count; ++i) {
-        const int64_t own = cell_of(&c, p.x[i], p.y[i]);
-        sums s = {0};
+        sums s;
         if (p.pressure[i] <= 0)
             continue;
-        for (row = own / c.columns - 1; row <= own / c.columns + 1; ++row)
-            for (column = own % c.columns - 1; column <= own % c.columns + 1; ++column)
-                if (row >= 0 && row < c.rows && column >= 0 && column < c.columns)
-                    for (k = c.begin[row * c.columns + column]; k < c.begin[row * c.columns + column + 1]; ++k)
-                        add(&s, &p, i, c.order[k], radius);
+        s = sums_about(&p, &c, i, radius);
         if (s.neighbours < ENOUGH)
             continue;
         ++counted;
@@ -123,11 +136,26 @@ roughness roughness_of(gp_sim *sim, double radius) {
         unseen += unseen_square(&s) / 2;
         kinetic += p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i];
     }
-    free(c.begin);
-    free(c.order);
+    free_cells(&c);
     if (counted > 0)
         result.pressure = sqrt(pressure2 / (double)counted);
     if (kinetic > 0)
         result.unseen = unseen / kinetic;
     return result;
+}
+
+double highest_mean_pressure(gp_sim *sim, double radius) {
+    gp_particles p = {.struct_size = sizeof p};
+    double highest = 0;
+    int64_t i;
+    cells c;
+    CHECK(gp_get_particles(sim, GP_FIELD_POSITION | GP_FIELD_VELOCITY | GP_FIELD_PRESSURE, &p));
+    c = sort_particles(&p, radius);
+    for (i = 0; i < p.count; ++i) {
+        const sums s = sums_about(&p, &c, i, radius);
+        if (s.neighbours >= ENOUGH)
+            highest = fmax(highest, (p.pressure[i] + s.p) / (1 + s.w));
+    }
+    free_cells(&c);
+    return highest;
 }

@@ -12,4 +12,8 @@ typedef struct roughness {
 /* radius: m, of the neighbourhoods. Particles without pressure, and those with few neighbours, are left out. */
 roughness roughness_of(gp_sim *sim, double radius);
 
+/* Pa, the highest of the means of a particle and its neighbours, by the method's own weight: the pressure that they bear together.
+ * Particles with few neighbours are left out. */
+double highest_mean_pressure(gp_sim *sim, double radius);
+
 #endif

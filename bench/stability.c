@@ -50,6 +50,7 @@ static void print_outcome(const outcome *o, double seconds, double particle_step
     printf("kinetic             %.6g E0\n", o->kinetic);
     printf("pressure            %.6g rho g H\n", o->pressure);
     printf("late_pressure       %.6g rho g H\n", o->late_pressure);
+    printf("late_mean           %.6g rho g H\n", o->late_mean);
     printf("memory              %.6g bytes\n", o->memory);
     printf("drift               %.6g dl\n", o->drift);
     printf("friction_share      %.6g of dissipated\n",
@@ -77,7 +78,7 @@ static void run(trial *t, choices *c) {
     memset(&first, 0, sizeof first);
     if (seeds)
         fprintf(seeds, "seed,diverged,peak,tip,front,spread,bulk,early,rest,error,gain,kinetic,pressure,late_pressure,"
-                       "steps\n");
+                       "late_mean,steps\n");
     for (k = 0; k < (int)c->seeds; ++k, ++t->seed) {
         gp_sim *sim = trial_create(t);
         c->follow.table = k == 0 ? bench_open_table(c->prefix, "series") : NULL;
@@ -89,9 +90,9 @@ static void run(trial *t, choices *c) {
         if (k == 0)
             first = o;
         if (seeds)
-            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
+            fprintf(seeds, "%g,%d,%.8g,%.8g,%.8g,%.8g,%.8g,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%lld\n", t->seed,
                     o.status == GP_E_DIVERGED, o.peak, o.tip, o.front, o.spread, o.bulk, o.early, o.rest, o.error,
-                    o.gain, o.kinetic, o.pressure, o.late_pressure, (long long)o.state.step);
+                    o.gain, o.kinetic, o.pressure, o.late_pressure, o.late_mean, (long long)o.state.step);
     }
     bench_close_table(seeds);
     print_outcome(&first, seconds, particle_steps);

@@ -51,8 +51,6 @@ void trial_options(trial *t, bench_option *options) {
         {"--lift-time", "s in which a gate clears its column; 0: no gates [0]", BENCH_NUMBER, &t->lift_time, 0, 1e6},
         {"--sound-factor", "times the automatic sound speed [1]", BENCH_NUMBER, &t->sound_factor, 1e-3, 1e3},
         {"--cfl", "beyond the stable limit too; 0: the scheme's own [0]", BENCH_NUMBER, &t->cfl, 0, 8},
-        {"--courant", "wave speed x dt / dl of a fixed time step, stable or not [none]", BENCH_NUMBER, &t->courant,
-         1e-6, 1e3},
         {"--horizon", "spacings [the scheme's]", BENCH_NUMBER, &t->horizon, 1.8, 8},
         {"--interaction-radius", "spacings [the scheme's]", BENCH_NUMBER, &t->interaction_radius, 1.5, 8},
         {"--delta", "1/s [the scheme's]", BENCH_NUMBER, &t->delta, 1e-300, 1e300},

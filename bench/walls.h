@@ -76,7 +76,7 @@ void tilt_layer(const choices *c);
 void tilt_box(const choices *c);
 /* A column of a = 1.25 with mu = 1.5, whose faces should stand. */
 void face(const choices *c);
-/* A tall silo with rough walls whose floor sinks: friction of the walls, what the floor bears. */
+/* A tall silo with rough walls whose floor sinks: friction of the walls, what the floor bears, the ratio of stresses above it. */
 void silo(const choices *c);
 
 #endif

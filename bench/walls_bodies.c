@@ -104,12 +104,41 @@ void face(const choices *c) {
     gp_destroy(sim);
 }
 
+/* Sums of stresses of the particles that lie less than a width above the floor: vertical ones, horizontal ones beside walls. */
+typedef struct bottom_sums {
+    double vertical, horizontal; /* Pa */
+    int64_t all, beside;
+} bottom_sums;
+
+static void add_bottom(bottom_sums *b, gp_sim *sim, double floor, double width, double beside) {
+    const int64_t count = walls_state(sim).n_particles;
+    double *x = walls_field(sim, GP_FIELD_X, count), *y = walls_field(sim, GP_FIELD_Y, count);
+    double *pressure = walls_field(sim, GP_FIELD_PRESSURE, count), *sxx = walls_field(sim, GP_FIELD_SXX, count);
+    int64_t k;
+    for (k = 0; k < count; ++k) {
+        if (y[k] > floor + width)
+            continue;
+        b->vertical += pressure[k] + sxx[k]; /* sxx + syy = 0 */
+        ++b->all;
+        if (x[k] > beside && x[k] < width - beside)
+            continue;
+        b->horizontal += pressure[k] - sxx[k];
+        ++b->beside;
+    }
+    free(x);
+    free(y);
+    free(pressure);
+    free(sxx);
+}
+
 void silo(const choices *c) {
+    enum { SAMPLES = 50 };
     const double width = 0.06, height = 0.36, sinking = 0.01, from = 0.5, below = 0.05;
     const gp_config config = walls_config(c, width / c->rows);
     const double weight = DENSITY * GRAVITY * width * height;
     gp_load before[3], after[3];
     int32_t plates[3];
+    bottom_sums bottom = {0};
     double normal, shear;
     gp_sim *sim;
     int k;
@@ -122,7 +151,10 @@ void silo(const choices *c) {
     CHECK(gp_run(sim, from));
     for (k = 0; k < 3; ++k)
         before[k] = walls_load(sim, plates[k]);
-    CHECK(gp_run(sim, c->end));
+    for (k = 1; k <= SAMPLES; ++k) {
+        CHECK(gp_run(sim, from + (c->end - from) * k / SAMPLES));
+        add_bottom(&bottom, sim, -sinking * walls_state(sim).time, width, 2 * config.spacing);
+    }
     for (k = 0; k < 3; ++k)
         after[k] = walls_load(sim, plates[k]);
     normal = after[2].impulse_x - before[2].impulse_x - (after[1].impulse_x - before[1].impulse_x);
@@ -130,6 +162,8 @@ void silo(const choices *c) {
     printf("friction %.5g traction over normal force of the walls\n", fabs(shear / normal));
     printf("floor %.5g of the weight\n", fabs(after[0].impulse_y - before[0].impulse_y) / (c->end - from) / weight);
     printf("walls %.5g of the weight\n", fabs(shear) / (c->end - from) / weight);
+    printf("ratio %.5g horizontal stress beside the walls over vertical stress, less than a width above the floor\n",
+           bottom.horizontal / (double)bottom.beside / (bottom.vertical / (double)bottom.all));
     walls_print_cost(sim);
     gp_destroy(sim);
 }

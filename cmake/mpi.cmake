@@ -8,7 +8,8 @@ if(NOT GRANPERI_ZOLTAN_INCLUDE_DIR OR NOT GRANPERI_ZOLTAN_LIBRARY)
 endif()
 
 function(granperi_make_mpi_objects target)
-  add_library(${target} OBJECT src/mpi/mpi_api.cpp src/mpi/mpi_crossing.cpp src/mpi/zoltan_cut.cpp)
+  add_library(${target} OBJECT src/mpi/mpi_api.cpp src/mpi/mpi_crossing.cpp src/mpi/mpi_messages.cpp
+                                src/mpi/zoltan_cut.cpp)
   granperi_compile_engine(${target})
   target_compile_definitions(${target} PRIVATE GP_WITH_MPI OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
   target_include_directories(${target} SYSTEM PRIVATE ${MPI_C_INCLUDE_DIRS} ${GRANPERI_ZOLTAN_INCLUDE_DIR})

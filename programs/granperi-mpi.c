@@ -59,13 +59,8 @@ static void fail(const char *format, ...) {
 }
 
 static void check(gp_status status) {
-    if (status >= 0)
-        return;
-    if (status == GP_E_MEMORY || status == GP_E_INTERNAL) { /* maybe of this process alone */
-        fprintf(stderr, "granperi-mpi: process %d: %s\n", rank, gp_last_error());
-        MPI_Abort(MPI_COMM_WORLD, 1);
-    }
-    fail("%s", gp_last_error());
+    if (status < 0)
+        fail("%s", gp_last_error());
 }
 
 static double number(const char *option, const char *text) {

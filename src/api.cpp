@@ -122,8 +122,8 @@ void gp_destroy(gp_sim *sim) {
 }
 
 gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32_t *id) {
-    return guard([&] {
-        put_id(id, 0);
+    put_id(id, 0);
+    return guard_together(sim, [&] {
         Sim &s = outside_callback(sim, "gp_add_material");
         put_id(id, s.add_material(complete(material, default_material(), "gp_material")));
         return GP_OK;
@@ -131,8 +131,8 @@ gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32_t *id)
 }
 
 gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id) {
-    return guard([&] {
-        put_id(id, 0);
+    put_id(id, 0);
+    return guard_together(sim, [&] {
         Sim &s = outside_callback(sim, "gp_add_column");
         put_id(id, s.add_column(complete(column, default_column(), "gp_column")));
         return GP_OK;
@@ -141,16 +141,16 @@ gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id) {
 
 gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                            const double *vy, int32_t *id) {
-    return guard([&] {
-        put_id(id, 0);
+    put_id(id, 0);
+    return guard_together(sim, [&] {
         put_id(id, outside_callback(sim, "gp_add_particles").add_particles(material, n, x, y, vx, vy));
         return GP_OK;
     });
 }
 
 gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id) {
-    return guard([&] {
-        put_id(id, 0);
+    put_id(id, 0);
+    return guard_together(sim, [&] {
         Sim &s = outside_callback(sim, "gp_add_plate");
         put_id(id, s.add_plate(complete(plate, default_plate(), "gp_plate")));
         return GP_OK;
@@ -170,7 +170,7 @@ gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, 
 }
 
 gp_status gp_set_gravity(gp_sim *sim, double gx, double gy) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         require_simulation(sim);
         sim->sim.set_gravity(gx, gy);
         return GP_OK;
@@ -180,11 +180,11 @@ gp_status gp_set_gravity(gp_sim *sim, double gx, double gy) {
 // -------------------------------------------------------------------------------------------------- running
 
 gp_status gp_step(gp_sim *sim, int64_t n) {
-    return guard([&] { return outside_callback(sim, "gp_step").step(sim, n); });
+    return guard_together(sim, [&] { return outside_callback(sim, "gp_step").step(sim, n); });
 }
 
 gp_status gp_run(gp_sim *sim, double t_end) {
-    return guard([&] { return outside_callback(sim, "gp_run").run(sim, t_end); });
+    return guard_together(sim, [&] { return outside_callback(sim, "gp_run").run(sim, t_end); });
 }
 
 gp_status gp_set_callback(gp_sim *sim, int64_t every, gp_callback callback, void *user) {
@@ -204,7 +204,7 @@ gp_status gp_set_log(gp_sim *sim, gp_log log, void *user) {
 // ---------------------------------------------------------------------------------------------------- files
 
 gp_status gp_save(gp_sim *sim, const char *path) {
-    return guard([&]() -> gp_status {
+    return guard_together(sim, [&]() -> gp_status {
         require_simulation(sim);
         require_pointer("path", path);
         Sim &s = sim->sim;
@@ -240,7 +240,7 @@ gp_status gp_load_file(const char *path, gp_sim **sim) {
 }
 
 gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         Sim &s = outside_callback(sim, "gp_output_open");
         require_pointer("path", path);
         if (s.sink)
@@ -255,7 +255,7 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
 }
 
 gp_status gp_output_write(gp_sim *sim) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         require_simulation(sim);
         if (!sim->sim.sink)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
@@ -265,7 +265,7 @@ gp_status gp_output_write(gp_sim *sim) {
 }
 
 gp_status gp_output_close(gp_sim *sim) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         Sim &s = outside_callback(sim, "gp_output_close");
         if (!s.sink)
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");

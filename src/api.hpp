@@ -12,10 +12,26 @@ inline void require_simulation(const gp_sim *handle) {
                          "sim = NULL: expected a simulation of gp_create or gp_load; has that call failed?");
 }
 
+// Of several processes each reads what it has by itself, once they have prepared it.
 inline Sim &readable(gp_sim *handle) {
     require_simulation(handle);
-    handle->sim.prepare();
-    return handle->sim;
+    Sim &sim = handle->sim;
+    if (sim.crossing())
+        sim.crossing()->require_going();
+    if (!sim.is_prepared())
+        together(sim.crossing(), [&] {
+            sim.prepare();
+            return GP_OK;
+        });
+    return sim;
+}
+
+// guard for what all of several processes do together.
+template <class Body> gp_status guard_together(gp_sim *handle, const Body &body) noexcept {
+    return guard([&] {
+        require_simulation(handle);
+        return together(handle->sim.crossing(), body);
+    });
 }
 
 } // namespace gp

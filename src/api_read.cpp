@@ -103,7 +103,7 @@ gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles
 }
 
 gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         if (field == 0 || (field & (field - 1)) || (field & ~GP_FIELD_ALL))
             throw make_error(GP_E_ARGUMENT, "field = 0x%x: expected exactly one of the bits GP_FIELD_...", field);
         Sim &s = readable(sim);
@@ -124,7 +124,7 @@ gp_status gp_copy_field(gp_sim *sim, uint32_t field, double *dst, int64_t n) {
 }
 
 gp_status gp_get_state(gp_sim *sim, gp_state *state) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         require_pointer("state", state);
         const uint32_t size = state->struct_size; // an older program's ends before what it does not know
         return hand_out_state(sim,
@@ -136,7 +136,7 @@ gp_status gp_get_state(gp_sim *sim, gp_state *state) {
 }
 
 gp_status gp_get_state_parts(gp_sim *sim, uint32_t parts, gp_state *state) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         require_pointer("state", state);
         if (parts & ~static_cast<uint32_t>(GP_STATE_ALL))
             throw make_error(GP_E_ARGUMENT, "parts = 0x%x: expected bits GP_STATE_... up to 0x%x", parts, GP_STATE_ALL);
@@ -159,7 +159,7 @@ gp_status gp_get_clock(gp_sim *sim, double *time, double *dt, int64_t *step) {
 }
 
 gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         require_stations(n, "x", x, "height", height);
         Sim &s = readable(sim);
         const Surface surface(s.world(), connected_deposit(s.world()));
@@ -174,7 +174,7 @@ gp_status gp_get_surface(gp_sim *sim, int64_t n, const double *x, double *height
 }
 
 gp_status gp_get_interface(gp_sim *sim, int32_t left, int32_t right, int64_t n, const double *y, double *x) {
-    return guard([&] {
+    return guard_together(sim, [&] {
         Sim &s = readable(sim);
         const auto bodies = static_cast<int64_t>(s.scene().bodies().size());
         require_choice("left", left, bodies);

@@ -1,11 +1,14 @@
 // What crosses between the worlds of several processes. src/mpi knows how; a process alone has none, and pays nothing.
 //
-// All calls are collective: each of the processes makes them, in the same order.
+// All calls are collective: each of the processes makes them, in the same order. One that cannot go on, because it lacks memory
+// for instance, calls fail: those that wait in another call then learn of it. All leave what they are in with the same
+// SharedFailure, and nothing is left on its way.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "error.hpp"
 #include "exact_sum.hpp"
 
 namespace gp {
@@ -22,6 +25,11 @@ public:
 
     virtual int rank() const = 0; // 0 .. ranks() - 1
     virtual int ranks() const = 0;
+
+    // What this process has met; returns what all are to throw. Where all have met what they had foreseen, they may go on; else no more can be done together.
+    virtual SharedFailure fail(const Failure &failure) = 0;
+    // Throws what has ended it before, if anything.
+    virtual void require_going() const = 0;
 
     virtual double waited() const = 0; // s, in all calls so far
     virtual Traffic traffic() const = 0;
@@ -45,5 +53,36 @@ public:
     virtual void cut(int64_t n, const double *x, const double *y, double work) = 0;
     virtual int owner(double x, double y) = 0;
 };
+
+// Are there others that wait?
+inline bool is_shared(const Crossing *crossing) {
+    return crossing && crossing->ranks() > 1;
+}
+
+// Runs body; all throw what one of them throws.
+template <class Body> auto everywhere(Crossing *crossing, const Body &body) {
+    if (!is_shared(crossing))
+        return body();
+    crossing->require_going();
+    Failure failure;
+    try {
+        return body();
+    } catch (const SharedFailure &) {
+        throw;
+    } catch (...) {
+        failure = failure_at_hand();
+    }
+    throw crossing->fail(failure);
+}
+
+// And none goes on before all have succeeded. Returns what body returns, a status.
+template <class Body> gp_status together(Crossing *crossing, const Body &body) {
+    return everywhere(crossing, [&] {
+        const gp_status status = body();
+        if (is_shared(crossing))
+            crossing->combine(nullptr, 0, nullptr, 0);
+        return status;
+    });
+}
 
 } // namespace gp

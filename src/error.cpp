@@ -2,6 +2,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <new>
 
 namespace gp {
 
@@ -31,6 +32,31 @@ std::string format_text(const char *format, ...) {
     std::string text = format_list(format, arguments);
     va_end(arguments);
     return text;
+}
+
+Failure failure_at_hand() noexcept {
+    Failure failure;
+    const auto tell = [&](gp_status status, const char *text) {
+        failure.status = status;
+        std::snprintf(failure.text, sizeof failure.text, "%s", text);
+    };
+    try {
+        throw;
+    } catch (const SharedFailure &shared) {
+        failure = shared.failure;
+    } catch (const Error &error) {
+        failure.foreseen = true;
+        tell(error.status(), error.what());
+    } catch (const std::bad_alloc &) {
+        tell(GP_E_MEMORY, "out of memory");
+    } catch (const std::length_error &) {
+        tell(GP_E_MEMORY, "out of memory");
+    } catch (const std::exception &error) {
+        tell(GP_E_INTERNAL, error.what());
+    } catch (...) {
+        tell(GP_E_INTERNAL, "unknown exception");
+    }
+    return failure;
 }
 
 void set_last_error(const char *text) noexcept {

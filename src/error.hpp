@@ -17,6 +17,20 @@ private:
     gp_status status_;
 };
 
+// What has been thrown, as the interface tells of it, without memory of its own.
+struct Failure {
+    gp_status status = GP_OK;
+    bool foreseen = false; // an Error, not one of memory or of a callback
+    char text[1024] = "";
+};
+// In a handler of any exception.
+Failure failure_at_hand() noexcept;
+
+// What all of several processes have been told of (crossing.hpp): each of them throws it.
+struct SharedFailure {
+    Failure failure;
+};
+
 // printf-style construction, so that every message can carry the argument's value.
 [[gnu::format(printf, 2, 3)]] Error make_error(gp_status status, const char *format, ...);
 [[gnu::format(printf, 1, 2)]] std::string format_text(const char *format, ...);

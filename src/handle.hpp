@@ -5,8 +5,6 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <new>
-#include <stdexcept>
 
 #include "check.hpp"
 #include "entry.hpp"
@@ -15,7 +13,7 @@
 #include "sim.hpp"
 
 struct gp_sim {
-    explicit gp_sim(const gp_config &config, std::unique_ptr<gp::Crossing> crossing = nullptr)
+    explicit gp_sim(const gp_config &config, std::shared_ptr<gp::Crossing> crossing = nullptr)
         : sim(config, std::move(crossing)) {}
 
     gp::Sim sim;
@@ -36,21 +34,10 @@ template <class Body> gp_status guard(const Body &body) noexcept {
     const Entry entry;
     try {
         return body();
-    } catch (const Error &error) {
-        set_last_error(error.what());
-        return error.status();
-    } catch (const std::bad_alloc &) {
-        set_last_error("out of memory");
-        return GP_E_MEMORY;
-    } catch (const std::length_error &) {
-        set_last_error("out of memory");
-        return GP_E_MEMORY;
-    } catch (const std::exception &error) {
-        set_last_error(error.what());
-        return GP_E_INTERNAL;
     } catch (...) {
-        set_last_error("unknown exception");
-        return GP_E_INTERNAL;
+        const Failure failure = failure_at_hand();
+        set_last_error(failure.text);
+        return failure.status;
     }
 }
 

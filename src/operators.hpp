@@ -32,37 +32,6 @@ struct Moments {
     }
 };
 
-// Adds the neighbours row[0 .. n) with the given positions and velocities. Neighbours past the radius have weight 0.
-GP_INLINE void add_moments(Moments &sum, const int32_t *__restrict row, int64_t n, double xi, double yi, double ui,
-                           double vi, const double *__restrict x, const double *__restrict y,
-                           const double *__restrict vx, const double *__restrict vy, double inverse_radius) {
-    double all = 0, kxx = 0, kxy = 0, kyy = 0, mxx = 0, mxy = 0, myx = 0, myy = 0;
-#pragma omp simd reduction(+ : all, kxx, kxy, kyy, mxx, mxy, myx, myy)
-    for (int64_t k = 0; k < n; ++k) {
-        const int32_t j = row[k];
-        const double dx = x[j] - xi, dy = y[j] - yi;
-        const double w = weight(std::sqrt(dx * dx + dy * dy), inverse_radius);
-        const double wx = w * dx, wy = w * dy;
-        const double du = vx[j] - ui, dv = vy[j] - vi;
-        all += w;
-        kxx += wx * dx;
-        kxy += wx * dy;
-        kyy += wy * dy;
-        mxx += du * wx;
-        mxy += du * wy;
-        myx += dv * wx;
-        myy += dv * wy;
-    }
-    sum.n += all;
-    sum.kxx += kxx;
-    sum.kxy += kxy;
-    sum.kyy += kyy;
-    sum.mxx += mxx;
-    sum.mxy += mxy;
-    sum.myx += myx;
-    sum.myy += myy;
-}
-
 // Below this share of the full-lattice value an eigenvalue of K no longer describes a neighbourhood: a free corner has
 // .14 to .4 (horizons of 8 to 1.8 dl), a straight row has 0 across itself.
 constexpr double deficient_share = 0.1;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <initializer_list>
-#include <new>
 
 #include "error.hpp"
 
@@ -117,27 +117,24 @@ std::string text_of_largest(Crossing &crossing, double &value, const std::string
 }
 
 void run_on_first(Crossing &crossing, const std::function<void()> &body) {
-    gp_status status = GP_OK;
-    std::string text;
+    Failure failure;
     if (crossing.rank() == 0) {
         try {
             body();
-        } catch (const Error &error) {
-            status = error.status();
-            text = error.what();
-        } catch (const std::bad_alloc &) {
-            status = GP_E_MEMORY;
-            text = "out of memory";
-        } catch (const std::exception &error) {
-            status = GP_E_INTERNAL;
-            text = error.what();
+        } catch (const SharedFailure &) {
+            throw;
+        } catch (...) {
+            const Failure met = failure_at_hand();
+            failure = met;
+            if ((!met.foreseen || met.status == GP_E_MEMORY) && is_shared(&crossing))
+                std::snprintf(failure.text, sizeof failure.text, "rank 0: %.1000s", met.text);
         }
     }
-    tell_all(&crossing, &status);
-    if (status == GP_OK)
+    tell_all(&crossing, &failure.status);
+    if (failure.status == GP_OK)
         return;
-    tell_all_of(crossing, text);
-    throw Error(status, text);
+    tell_all(&crossing, &failure);
+    throw Error(failure.status, failure.text);
 }
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {

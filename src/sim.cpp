@@ -37,7 +37,7 @@ private:
 
 // ---------------------------------------------------------------------------------------------- time loop
 
-Sim::Sim(const gp_config &config, std::unique_ptr<Crossing> crossing) : scene_(config), crossing_(std::move(crossing)) {
+Sim::Sim(const gp_config &config, std::shared_ptr<Crossing> crossing) : scene_(config), crossing_(std::move(crossing)) {
     if (crossing_)
         require_partable(scene_);
 }
@@ -92,8 +92,9 @@ std::vector<std::string> Sim::take_step() {
             ++world.retries;
             if (notes.empty())
                 notes = warnings_.of_retry(world, error.what());
-        } catch (...) { // out of memory
-            undo_step(world, UndoneOrder::as_it_is);
+        } catch (...) {                      // out of memory
+            if (!is_shared(crossing_.get())) // others may be anywhere in theirs
+                undo_step(world, UndoneOrder::as_it_is);
             throw;
         }
     }
@@ -126,7 +127,7 @@ gp_status Sim::advance(gp_sim *handle, double t_end) {
     std::exception_ptr lost;
     try {
         if (sink)
-            sink->step_done(*world_);
+            everywhere(crossing_.get(), [&] { sink->step_done(*world_); });
     } catch (...) {
         lost = std::current_exception();
     }
@@ -297,7 +298,7 @@ void Sim::set_gravity(double gx, double gy) {
 }
 
 void Sim::prepare() {
-    if (world_ && world_->lists_whole)
+    if (is_prepared())
         return;
     if (world_) { // memory ran out in a step; readers need the cells, the next step makes its own lists
         stages::make_lists(*world_);

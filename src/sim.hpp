@@ -34,7 +34,7 @@ struct Progress {
 class Sim {
 public:
     // crossing: to the other processes that the simulation is of; all calls are theirs, too, in the same order.
-    explicit Sim(const gp_config &config, std::unique_ptr<Crossing> crossing = nullptr);
+    explicit Sim(const gp_config &config, std::shared_ptr<Crossing> crossing = nullptr);
 
     // Adding to the scene; possible until the first step.
     int32_t add_material(const gp_material &material);
@@ -56,6 +56,7 @@ public:
     // Builds what the stages work on from the scene, if that is still to be done, or what a step without memory has left
     // unfinished. Readers call it first.
     void prepare();
+    bool is_prepared() const { return world_ && world_->lists_whole; }
     Progress progress() const;
     // The world of all processes: on the first of them, elsewhere NULL. A process alone has it anyway.
     const World *whole();
@@ -92,7 +93,7 @@ private:
                                  const double *vy);
 
     Scene scene_;
-    std::unique_ptr<Crossing> crossing_;
+    std::shared_ptr<Crossing> crossing_;
     std::unique_ptr<World> world_; // or the part of it that is this process's
     std::unique_ptr<World> whole_; // of all parts, as it was in the epoch
     uint64_t whole_epoch_ = 0;

@@ -38,6 +38,9 @@ void take_in_order(Crossing &crossing, const OrderedRows &own, const TakeRows &b
 // The place in the order of cells of the k-th particle; columns: to add to its column.
 void key_of_cell(const World &part, int64_t k, int64_t columns, double *key);
 
+// As many turns on each process as the one needs that has most; of all together no more than stretch_size items are in one.
+void for_each_turn(Crossing &crossing, int64_t count, const std::function<void(int64_t begin, int64_t end)> &body);
+
 // Numbers of this process, in pieces of a size at most, to the first one: body gets those of all, piece by piece.
 void collect_numbers(Crossing &crossing, const double *own, int64_t count,
                      const std::function<void(int64_t all)> &make_room,

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "parts.hpp"
 #include "stages/stages.hpp"
+#include "stretches.hpp"
 
 namespace gp {
 
@@ -120,50 +120,111 @@ void finish(World &w, const std::vector<double> &common) {
     }
 }
 
+// Rows of so many numbers that the first process has: each process asks it for some at a time, by keys of its own. Body row(key,
+// out) on the first, take(k, row) where it was asked for.
+template <class Key, class Row, class Take>
+void ask_first(Crossing &crossing, int64_t count, std::size_t numbers, const Key &key, const Row &row,
+               const Take &take) {
+    const auto ranks = static_cast<std::size_t>(crossing.ranks());
+    std::vector<std::vector<double>> asked(ranks), asked_here, out(ranks), in;
+    for_each_turn(crossing, count, [&](int64_t begin, int64_t end) {
+        asked[0].clear();
+        for (int64_t k = begin; k < end; ++k)
+            asked[0].push_back(static_cast<double>(key(k)));
+        crossing.deal(asked, asked_here);
+        for (std::size_t rank = 0; rank < ranks; ++rank) {
+            out[rank].resize(numbers * asked_here[rank].size());
+            double *next = out[rank].data();
+            for (const double one : asked_here[rank]) {
+                row(static_cast<int64_t>(one), next);
+                next += numbers;
+            }
+        }
+        crossing.deal(out, in);
+        for (int64_t k = begin; k < end; ++k)
+            take(k, in[0].data() + numbers * static_cast<std::size_t>(k - begin));
+    });
+}
+
+// And such rows of all processes to the first one: pack(k, out), there take(row).
+template <class Pack, class Take>
+void tell_first(OnFirst &first, Crossing &crossing, int64_t count, std::size_t numbers, const Pack &pack,
+                const Take &take) {
+    std::vector<double> own, all;
+    for_each_turn(crossing, count, [&](int64_t begin, int64_t end) {
+        own.resize(numbers * static_cast<std::size_t>(end - begin));
+        for (int64_t k = begin; k < end; ++k)
+            pack(k, own.data() + numbers * static_cast<std::size_t>(k - begin));
+        crossing.gather(own, all);
+        first.run([&] {
+            for (std::size_t at = 0; at < all.size(); at += numbers)
+                take(all.data() + at);
+        });
+    });
+}
+
+std::vector<int64_t> places_of_ids(const Particles &p) {
+    std::vector<int64_t> places(static_cast<std::size_t>(p.count));
+    for (int64_t i = 0; i < p.count; ++i)
+        places[p.id[i]] = i;
+    return places;
+}
+
+// What lists are made of.
+constexpr std::size_t listed_numbers = 4;
+void pack_listed(const World &world, int64_t listed, int64_t i, double *out) {
+    out[0] = static_cast<double>(world.particles.id[i]);
+    out[1] = world.particles.column[i];
+    out[2] = world.list_origin.x[listed];
+    out[3] = world.list_origin.y[listed];
+}
+void take_listed(Particles &p, int64_t i, const double *row) {
+    p.id[i] = static_cast<int64_t>(row[0]);
+    p.column[i] = static_cast<int32_t>(row[1]);
+    p.x[i] = row[2];
+    p.y[i] = row[3];
+}
+
+void pack_fields(const std::vector<Field<double> *> &fields, int64_t i, double *out) {
+    for (const Field<double> *field : fields)
+        *out++ = (*field)[i];
+}
+void take_fields(const std::vector<Field<double> *> &fields, int64_t i, const double *row) {
+    for (Field<double> *field : fields)
+        (*field)[i] = *row++;
+}
+
 } // namespace
 
+// Lists are made twice as the whole has them: first of equal shares, from which particles go to their owners.
 std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const World *whole) {
     auto part = make_bare_world(scene, scene.constants(), 1); // fields in use have a size
-    resize_part(*part, whole ? whole->particles.count : 0);
     part->crossing = &crossing;
     part->halo = std::make_unique<Halo>(crossing);
     const std::vector<double> common = common_of_first(crossing, whole);
     set_common(*part, common, true);
+    int64_t all = whole ? whole->particles.count : 0;
+    tell_all(&crossing, &all);
+    const int64_t begin = all * crossing.rank() / crossing.ranks();
+    const int64_t count = all * (crossing.rank() + 1) / crossing.ranks() - begin;
+    resize_part(*part, count);
     Particles &p = part->particles;
-    std::vector<int64_t> place_of_id;
-    if (whole) {
-        const ListOrigin &origin = whole->list_origin;
-        place_of_id.resize(static_cast<std::size_t>(p.count));
-        for (int64_t k = 0; k < p.count; ++k) {
-            const int64_t i = whole->particle_listed_at(k);
-            p.id[k] = whole->particles.id[i];
-            p.column[k] = whole->particles.column[i];
-            p.x[k] = origin.x[k];
-            p.y[k] = origin.y[k];
-            place_of_id[p.id[k]] = i;
-        }
-    }
+    ask_first(
+        crossing, count, listed_numbers, [&](int64_t k) { return begin + k; },
+        [&](int64_t k, double *out) { pack_listed(*whole, k, whole->particle_listed_at(k), out); },
+        [&](int64_t i, const double *row) { take_listed(p, i, row); });
     stages::make_lists(*part); // they go to their owners
-    std::vector<double> own(p.id.begin(), p.id.begin() + p.count), all, counts;
-    crossing.gather_everywhere({static_cast<double>(p.count)}, counts);
-    crossing.gather(own, all);
-    const std::vector<Field<double> *> fields = carried_fields(p);
-    std::vector<std::vector<double>> out(static_cast<std::size_t>(crossing.ranks())), in;
+    std::vector<int64_t> place_of_id;
+    std::vector<Field<double> *> of_whole;
     if (whole) {
-        const std::vector<Field<double> *> from = carried_fields(const_cast<World *>(whole)->particles);
-        std::size_t next = 0;
-        for (std::size_t rank = 0; rank < out.size(); ++rank)
-            for (auto left = static_cast<int64_t>(counts[rank]); left > 0; --left) {
-                const int64_t i = place_of_id[static_cast<std::size_t>(all[next++])];
-                for (const Field<double> *field : from)
-                    out[rank].push_back((*field)[i]);
-            }
+        place_of_id = places_of_ids(whole->particles);
+        of_whole = carried_fields(const_cast<World *>(whole)->particles);
     }
-    crossing.deal(out, in);
-    const double *number = in[0].data();
-    for (int64_t i = 0; i < p.count; ++i)
-        for (Field<double> *field : fields)
-            (*field)[i] = *number++;
+    const std::vector<Field<double> *> fields = carried_fields(p);
+    ask_first(
+        crossing, p.count, fields.size(), [&](int64_t i) { return p.id[i]; },
+        [&](int64_t id, double *out) { pack_fields(of_whole, place_of_id[id], out); },
+        [&](int64_t i, const double *row) { take_fields(fields, i, row); });
     finish(*part, common);
     return part;
 }
@@ -171,41 +232,35 @@ std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const Wo
 std::unique_ptr<World> put_together(const World &part) {
     Crossing &crossing = *part.crossing;
     const Particles &p = part.particles;
-    const std::vector<Field<double> *> fields = carried_fields(const_cast<World &>(part).particles);
-    const std::size_t numbers = fields.size() + 4;
-    std::vector<double> own, all;
-    own.reserve(numbers * static_cast<std::size_t>(p.count));
-    for (int64_t i = 0; i < p.count; ++i) {
-        own.insert(own.end(), {static_cast<double>(p.id[i]), static_cast<double>(p.column[i]), part.list_origin.x[i],
-                               part.list_origin.y[i]});
-        for (const Field<double> *field : fields)
-            own.push_back((*field)[i]);
-    }
-    crossing.gather(own, all);
-    if (crossing.rank() != 0)
-        return nullptr;
-    const auto count = static_cast<int64_t>(all.size() / numbers);
-    auto whole = make_bare_world(*part.scene, part.constants, count);
     const std::vector<double> common = common_of(part);
-    set_common(*whole, common, true);
-    Particles &w = whole->particles;
-    std::vector<const double *> record_of_id(static_cast<std::size_t>(count));
-    for (int64_t i = 0; i < count; ++i) {
-        const double *record = all.data() + numbers * static_cast<std::size_t>(i);
-        w.id[i] = static_cast<int64_t>(record[0]);
-        w.column[i] = static_cast<int32_t>(record[1]);
-        w.x[i] = record[2];
-        w.y[i] = record[3];
-        record_of_id[w.id[i]] = record;
-    }
-    stages::make_lists(*whole);
-    const std::vector<Field<double> *> of_whole = carried_fields(w);
-    for (int64_t i = 0; i < count; ++i) {
-        const double *number = record_of_id[w.id[i]] + 4;
-        for (Field<double> *field : of_whole)
-            (*field)[i] = *number++;
-    }
-    finish(*whole, common);
+    const int64_t count = count_of_all(part);
+    std::unique_ptr<World> whole;
+    OnFirst first(crossing);
+    first.run([&] {
+        whole = make_bare_world(*part.scene, part.constants, count);
+        set_common(*whole, common, true);
+    });
+    int64_t next = 0;
+    tell_first(
+        first, crossing, p.count, listed_numbers, [&](int64_t i, double *out) { pack_listed(part, i, i, out); },
+        [&](const double *row) { take_listed(whole->particles, next++, row); });
+    std::vector<int64_t> place_of_id;
+    std::vector<Field<double> *> of_whole;
+    first.run([&] {
+        stages::make_lists(*whole);
+        place_of_id = places_of_ids(whole->particles);
+        of_whole = carried_fields(whole->particles);
+    });
+    const std::vector<Field<double> *> fields = carried_fields(const_cast<World &>(part).particles);
+    tell_first(
+        first, crossing, p.count, fields.size() + 1,
+        [&](int64_t i, double *out) {
+            *out = static_cast<double>(p.id[i]);
+            pack_fields(fields, i, out + 1);
+        },
+        [&](const double *row) { take_fields(of_whole, place_of_id[static_cast<int64_t>(row[0])], row + 1); });
+    first.run([&] { finish(*whole, common); });
+    first.finish();
     return whole;
 }
 

@@ -3,13 +3,14 @@
 
     /usr/bin/python3 bench/performance/aims.py            # writes it into the guide, docs/settings.md and granperi.settings
     /usr/bin/python3 bench/performance/aims.py --check    # 1 if one of them says something else
-    PYTHONPATH=build/python /usr/bin/python3 bench/performance/aims.py --measure    # some 180 CPU s: errors and CPU times anew
+    PYTHONPATH=build/python /usr/bin/python3 bench/performance/aims.py --measure    # some 70 CPU s: errors and CPU times anew
     /usr/bin/python3 bench/performance/aims.py --figure   # docs/images/performance_collapse.png
 
-In aims.json "levels" are the settings ("cpu_seconds_awake": with sleep = 0, as on several processes), "curves" [L/dl, CPU s, error of one run] of the column with a = 1.25, "mpm" the same column by an
+In aims.json "rows" are the runs (aims_rows.py), "levels" the settings and what the rows say of them ("cpu_seconds_awake": with
+sleep = 0, as on several processes), "mpm" the column with a = 1.25 by an
 explicit MPM code with the same law, [L/dl, CPU s, peak y/L, run-out of 90 % of the mass], single runs: not measured here.
 
-Between two marks, <!-- aims --> and <!-- /aims -->, in Python # aims and # /aims, a page is not written by hand.
+Between two marks such as <!-- aims --> and <!-- /aims -->, in Python # aims and # /aims, a page is not written by hand.
 """
 from __future__ import annotations
 
@@ -23,19 +24,11 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 
+import aims_rows  # noqa: E402
 from headlines import headline  # noqa: E402
 
 ROOT = HERE.parents[1]
 DATA = HERE / "aims.json"
-# Of each scene the spacings over its width that make those of the level over its smaller side, and the number of runs. One side: those
-# that divide both sides (21 in place of 20 rounds the height by 2 %, and its run-out errs by 5.9 %).
-RESOLUTIONS = {"draft": {"a125": (16, 24), "a5": (10, 4), "one": (20, 4)},
-               "standard": {"a125": (24, 16), "a5": (15, 4), "one": (20, 4)},
-               "fine": {"a125": (40, 12), "a5": (25, 4), "one": (30, 4)}}
-
-CURVES = {"horizon 4": (4, (16, 24, 32, 40, 48)), "horizon 3": (3, (16, 24, 32, 40, 48, 64))}
-CURVE_RUNS = 4
-
 Levels = dict[str, dict[str, Any]]
 
 
@@ -43,7 +36,7 @@ def percent(share: float, digits: int = 1) -> str:
     return f"{100 * share:.{digits}f} %"
 
 
-def markdown(levels: Levels) -> str:
+def markdown(levels: Levels, rows: list[aims_rows.Row]) -> str:
     lines = ["| aim | spacing | horizon | `sleep` | peak | run-out | CPU s | with `sleep` 0 |", "|---|---|---:|---:|---:|---:|---:|---:|"]
     lines += [f"| {name}: below {percent(of['aim'], 0)} | smaller side / {of['spacings']} | {of['horizon']} | {of['sleep']} | "
               f"{percent(of['peak_error'])} ({percent(of['peak_error_a125'])}) | "
@@ -52,9 +45,9 @@ def markdown(levels: Levels) -> str:
     return "\n".join(lines)
 
 
-def marked(levels: Levels) -> str:
+def marked(levels: Levels, rows: list[aims_rows.Row]) -> str:
     """For the page that the others take these numbers from."""
-    text = markdown(levels)
+    text = markdown(levels, rows)
     for name in ("standard", "fine"):
         seconds = f"{levels[name]['cpu_seconds']:.2f}"
         told = headline(f"settings.{name}.cpu", seconds)
@@ -62,69 +55,28 @@ def marked(levels: Levels) -> str:
     return text
 
 
-def python(levels: Levels) -> str:
+def python(levels: Levels, rows: list[aims_rows.Row]) -> str:
     lines = ["_LEVELS = {"]
     lines += [f'    "{name}": _Level({of["spacings"]}, {of["horizon"]:.1f}, {of["sleep"]}, {of["aim"]:.2f}, {of["peak_error"]:.3f}, '
               f'{of["runout_error"]:.3f}, {of["cpu_seconds"]:.2f}, {of["cpu_seconds_awake"]:.2f}),' for name, of in levels.items()]
     return "\n".join([*lines, "}"])
 
 
-PLACES = {"docs/settings.md": ("<!-- aims -->", "<!-- /aims -->", marked),
-          "docs/guide/resolution.md": ("<!-- aims -->", "<!-- /aims -->", markdown),
-          "bindings/python/granperi/_settings.py": ("# aims: written by bench/performance/aims.py", "# /aims", python)}
+PLACES = [("docs/settings.md", "<!-- aims -->", "<!-- /aims -->", marked),
+          ("docs/settings.md", "<!-- rows -->", "<!-- /rows -->", aims_rows.table),
+          ("docs/settings.md", "<!-- runs -->", "<!-- /runs -->", aims_rows.single_runs),
+          ("docs/guide/resolution.md", "<!-- aims -->", "<!-- /aims -->", markdown),
+          ("bindings/python/granperi/_settings.py", "# aims: written by bench/performance/aims.py", "# /aims", python)]
 
 
 def replaced(text: str, begin: str, end: str, content: str) -> str:
-    found = re.findall(re.escape(begin) + r"\n.*?\n" + re.escape(end), text, flags=re.S)
+    found = re.findall(re.escape(begin) + r"\n.*?" + re.escape(end), text, flags=re.S)
     if len(found) != 1:
         raise ValueError(f"{len(found)} places between {begin} and {end}")
     return text.replace(found[0], f"{begin}\n{content}\n{end}")
 
 
-def measure(levels: Levels) -> None:
-    import numpy as np
-
-    import settings
-
-    for name, of in levels.items():
-        worst: dict[str, float] = {"peak": 0.0, "runout": 0.0}
-        for label, (resolution, runs) in RESOLUTIONS[name].items():
-            scene = settings.SCENES[label]
-            done = [settings.run(scene, resolution, seed, horizon=of["horizon"], sleep=of["sleep"]) for seed in range(1, runs + 1)]
-            for what, reference in zip(worst, scene.reference):
-                one = settings.errors([getattr(run, what) for run in done], reference)[2]
-                worst[what] = max(worst[what], one)
-                if label == "a125":
-                    of[f"{what}_error_a125"] = round(one, 3)
-            if label == "a125":
-                of["cpu_seconds"] = round(float(np.median([run.cpu for run in done])), 2)
-                awake = [settings.run(scene, resolution, seed, horizon=of["horizon"], sleep=0) for seed in range(1, runs + 1)]
-                of["cpu_seconds_awake"] = round(float(np.median([run.cpu for run in awake])), 2)
-            print(f"{name} {label}: done", flush=True)
-        of["peak_error"], of["runout_error"] = round(worst["peak"], 3), round(worst["runout"], 3)
-        print(f"{name}: {of}", flush=True)
-        if max(of["peak_error_a125"], of["runout_error_a125"]) > of["aim"]:
-            print(f"{name} misses its aim", flush=True)
-
-
-def measure_curves() -> dict[str, list[list[float]]]:
-    import numpy as np
-
-    import settings
-
-    scene, curves = settings.SCENES["a125"], {}
-    for name, (horizon, resolutions) in CURVES.items():
-        curves[name] = []
-        for n in resolutions:
-            done = [settings.run(scene, n, seed, horizon=horizon, sleep=1) for seed in range(1, CURVE_RUNS + 1)]
-            larger = max(settings.errors([getattr(run, what) for run in done], reference)[2]
-                         for what, reference in zip(("peak", "runout"), scene.reference))
-            curves[name].append([n, round(float(np.median([run.cpu for run in done])), 2), round(larger, 3)])
-            print(name, curves[name][-1], flush=True)
-    return curves
-
-
-def best_of(curves: dict[str, list[list[float]]]) -> list[tuple[int, float, float]]:
+def best_of(curves: dict[str, list[tuple[int, float, float]]]) -> list[tuple[int, float, float]]:
     """Of all points those that no other one beats in cost and error, of two that cost the same within 8 % the better one: L/dl, CPU s,
     error."""
     found: list[tuple[int, float, float]] = []
@@ -144,10 +96,10 @@ def figure(data: dict[str, Any], path: Path) -> None:
     from plotting import finish
 
     fig, axes = plt.subplots(figsize=(9.2, 6.2), layout="constrained")
-    best, ours, theirs, star = best_of(data["curves"]), "#0072B2", "0.35", "#D55E00"
+    best, ours, theirs, star = best_of(aims_rows.curves(data["rows"])), "#0072B2", "0.35", "#D55E00"
     axes.plot([cpu for _, cpu, _ in best], [100 * error for *_, error in best], color=ours, marker="o", ms=7, lw=3,
               label="granperi, best of horizons 3 and 4")
-    peak, runout = data["mpm"]["reference"]
+    peak, runout = aims_rows.converged("a125")
     for name, style in ((SAME, "-"), ("tuned", "--")):
         points = data["mpm"][name]
         errors = [100 * max(abs(r / runout - 1), abs(p / peak - 1) if p is not None else 0) for _, _, p, r in points]
@@ -185,17 +137,20 @@ def main() -> int:
     options = parser.parse_args()
     data = json.loads(DATA.read_text())
     if options.measure:
-        measure(data["levels"])
-        data["curves"] = measure_curves()
+        data["rows"] = aims_rows.measure()
+        aims_rows.summed_up(data["levels"], data["rows"])
+        for name, of in data["levels"].items():
+            if max(of["peak_error_a125"], of["runout_error_a125"]) > of["aim"]:
+                print(f"{name} misses its aim", flush=True)
         DATA.write_text(re.sub(r"\[\s+([^][{}]*?)\s+\]", lambda found: "[" + re.sub(r"\s+", " ", found[1]) + "]",
                                json.dumps(data, indent=1)) + "\n")  # one point in a line
     if options.figure:
         figure(data, ROOT / "docs" / "images" / "performance_collapse.png")
     differs = 0
-    for place, (begin, end, write) in PLACES.items():
+    for place, begin, end, write in PLACES:
         path = ROOT / place
         text = path.read_text()
-        new = replaced(text, begin, end, write(data["levels"]))
+        new = replaced(text, begin, end, write(data["levels"], data["rows"]))
         if new != text:
             differs = 1
             print(f"{place}: {'differs' if options.check else 'written'}")

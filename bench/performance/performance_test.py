@@ -14,6 +14,7 @@ from smoke import Workplace  # first: skips where NumPy is missing
 import numpy as np
 
 import aims
+import aims_rows
 import beside
 import measures
 import peers
@@ -28,8 +29,9 @@ PLATE_BYTES = 512  # of the lists of walls: a plate's images, its chain, its pla
 def check_measures() -> None:
     places = [(1.0, 0.4), (2.0, 0.5), (2.0, 0.1), (3.0, 0.1), (4.0, math.nan), (5.0, 0.05)]
     assert measures.pareto(places, places) == [(1.0, 0.4), (2.0, 0.1), (5.0, 0.05)]
-    curves = {"horizon 4": [[16, 1.0, 0.07], [32, 4.0, 0.03]], "horizon 3": [[24, 2.0, 0.08], [32, 4.2, 0.02]]}
-    assert aims.best_of(curves) == [(16, 1.0, 0.07), (32, 4.2, 0.02)], "what costs the same counts once"
+    rows = [{"scene": "a125", "horizon": horizon, "spacings": n, "cpu": cpu, "peak": [-error, 0.0, error], "runout": [0.0, 0.0, 0.01]}
+            for horizon, n, cpu, error in ((4, 16, 1.0, 0.07), (4, 32, 4.0, 0.03), (3, 24, 2.0, 0.08), (3, 32, 4.2, 0.02))]
+    assert aims.best_of(aims_rows.curves(rows)) == [(16, 1.0, 0.07), (32, 4.2, 0.02)], "what costs the same counts once"
     # Error = 1 / cost falls to 1/20 at 20; a curve that rises above the aim again has not got there.
     costs = [1.0, 8.0, 64.0]
     assert math.isclose(measures.at_error(costs, [1 / c for c in costs], 0.05), 20)
@@ -114,6 +116,7 @@ def main() -> None:
     report, images = place.report("performance.md")
     peak = measures.reference(collection, "a1.25").value["peak"] / runs.SCENES["a1.25"].length
     assert f"{peak:.3f} ±" in report, "the table of converged solutions has the peak"
+    assert f"performance.converged.a125_peak-->{peak:.3f}<" in report, "and so have the pages that are measured against it"
     assert "holds 0 bytes" in report and "runs are missing" in report and " nan" not in report.lower()
     assert images == ["performance_growth.png"], images
     assert plots.others(place.found / "column.png", collection, ("a1.25",)), "there are points to draw"

@@ -11,7 +11,7 @@ from results import Collection
 
 
 def rows(results: Collection) -> list[tuple[str, str, str]]:
-    found = [*_rates(results), *_memory(results), *_refinement(results), *_mpm()]
+    found = [*_rates(results), *_memory(results), *_refinement(results), *_converged(results), *_mpm()]
     minutes = sum(result.cpu for result in results.found.values()) / 60
     return [(f"performance.{name}", what, text) for name, what, text in found] + [
         ("performance.cpu_minutes", "CPU minutes of all runs", fixed(minutes, 0))
@@ -55,6 +55,17 @@ def _refinement(results: Collection) -> list[tuple[str, str, str]]:
         ("refinement.least", "half the spacing, from L/dl = 16 to 128: CPU time, times, least", least),
         ("refinement.most", "most", most),
     ]
+
+
+def _converged(results: Collection) -> list[tuple[str, str, str]]:
+    """Against which docs/settings.md has its errors, too."""
+    found = []
+    for key, name in (("a1.25", "a125"), ("a5", "a5"), ("one_side", "one")):
+        ref, scene = measures.reference(results, key), runs.SCENES[key]
+        peak = ref.value["peak"] / scene.length if ref else None
+        found += [(f"converged.{name}_peak", f"{scene.label}, finest: peak y/L", fixed(peak, 3)),
+                  (f"converged.{name}_bulk", "run-out of 90 % of the mass", fixed(ref.value["bulk"] if ref else None, 3))]
+    return found
 
 
 def _mpm() -> list[tuple[str, str, str]]:

@@ -100,7 +100,7 @@ At the same spacing; in brackets horizon 4. Bias, but in the last column one run
 
 {sections.horizons(collection)}
 
-### Recommended settings
+### The cheapest settings
 
 The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim, as
 do all finer ones of the same setting; without the horizons with which the error of an exact solution grows on refinement. Options
@@ -171,7 +171,8 @@ two threads could at most.
 
 ## Recommended settings, with sleep
 
-[settings.md](settings.md): what a draft, a standard and a fine run cost and err now, measured by hand; `granperi.settings` in Python.
+[settings.md](settings.md): what a draft, a standard and a fine run cost and err with `sleep`, of settings that also hold where the cheapest do not;
+`granperi.settings` in Python takes these.
 
 ## The hot path
 

@@ -128,7 +128,6 @@ SETTINGS = {
     )
 }  # fmt: skip
 CHEAP = ("cheap4", "cheap3", "cheap2.5")  # also along all resolutions of a = 1.25
-RECOMMENDED = "cheap3"
 
 
 def _cost(scene: Scene, resolution: int, horizon: float = DEFAULT_HORIZON, end: float = END) -> float:

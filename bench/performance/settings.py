@@ -5,7 +5,7 @@
 
 Glass beads on a rough floor, released at once, to 1 s with sleep: both sides, a = 1.25 (0.08 m wide, 0.05 m high) and a = 5
 (0.20 m high), and one side beside a smooth wall (0.20 m, 0.14 m, grains of 0.7 mm). Peak y/L, and the run-out x/L0 - 1 behind
-which 90 % of the mass lie, against the finest. Runs of an ensemble begin with particles up to 0.01 dl beside each other's; "one
+which 90 % of the mass lie, against the finest of docs/performance.md. Runs of an ensemble begin with particles up to 0.01 dl beside each other's; "one
 run" is the root mean square error of its runs, bias and scatter together. CPU s are the median run's, to 1 s and until it
 rests (looked at each 0.05 s).
 """
@@ -14,11 +14,17 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import math
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
 import granperi
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+
+import aims_rows  # noqa: E402
 
 END, LOOK = 1.0, 0.05  # s
 
@@ -31,14 +37,12 @@ class Scene:
     sides: int
     diameter: float  # m
     resolutions: tuple[int, ...]  # spacings in the length
-    finest: int  # the same of the reference
-    reference: tuple[float, float]  # its peak y/L and run-out of 90 %: --finest prints them
 
 
 SCENES = {
-    "a125": Scene("both sides, a = 1.25", 0.08, 0.05, 2, 0.002, (16, 24, 32, 48, 64), 128, (0.4229, 1.085)),
-    "a5": Scene("both sides, a = 5", 0.08, 0.20, 2, 0.002, (10, 15, 20, 25), 48, (0.7195, 5.017)),
-    "one": Scene("one side, a = 0.7", 0.20, 0.14, 1, 0.0007, (20, 30, 40), 90, (0.6385, 0.6109)),
+    "a125": Scene("both sides, a = 1.25", 0.08, 0.05, 2, 0.002, (16, 24, 32, 48, 64)),
+    "a5": Scene("both sides, a = 5", 0.08, 0.20, 2, 0.002, (10, 15, 20, 25)),
+    "one": Scene("one side, a = 0.7", 0.20, 0.14, 1, 0.0007, (20, 30, 40)),
 }
 
 
@@ -77,11 +81,12 @@ def errors(values: list[float], reference: float) -> tuple[float, float, float]:
             math.sqrt((relative**2).mean()))
 
 
-def row(scene: Scene, resolution: int, horizon: float, runs: list[Run]) -> str:
+def row(name: str, resolution: int, horizon: float, runs: list[Run]) -> str:
+    scene = SCENES[name]
     cells = [f"{horizon:g}", str(resolution), f"{resolution * min(1, scene.height / scene.length):.0f}",
              f"{np.median([r.cpu for r in runs]):.2f}", f"{np.median([r.cpu_to_rest for r in runs]):.2f}"]
-    for name, reference in zip(("peak", "runout"), scene.reference):
-        bias, spread, one = errors([getattr(r, name) for r in runs], reference)
+    for what, reference in zip(("peak", "runout"), aims_rows.converged(name)):
+        bias, spread, one = errors([getattr(r, what) for r in runs], reference)
         cells += [f"{100 * bias:+.1f} ± {100 * spread:.1f} %", f"{100 * one:.1f} %"]
     return "| " + " | ".join(cells) + " |"
 
@@ -93,22 +98,17 @@ def main() -> None:
     parser.add_argument("--horizons", type=float, nargs="+", default=[2.5, 3, 4], help="spacings [2.5 3 4]")
     parser.add_argument("--resolutions", type=int, nargs="+", help="spacings in the length [those of the scene]")
     parser.add_argument("--cfl", type=float, default=0, help="0: the scheme's own [0]")
-    parser.add_argument("--finest", action="store_true", help="the finest spacing, which is the reference, alone")
     options = parser.parse_args()
     for name in options.only:
         scene = SCENES[name]
         print(f"\n{scene.label}\n", flush=True)
-        if options.finest:
-            for seed in range(1, options.runs + 1):
-                print(run(scene, scene.finest, seed, cfl=options.cfl, sleep=1), flush=True)
-            continue
         print("| horizon | L/dl | over the smaller side | CPU s to 1 s | to rest | peak | one run | run-out, 90 % | one run |")
         print("|" + "---:|" * 9)
         for horizon in options.horizons:
             for resolution in options.resolutions or scene.resolutions:
                 runs = [run(scene, resolution, seed, horizon=horizon, cfl=options.cfl, sleep=1)
                         for seed in range(1, options.runs + 1)]
-                print(row(scene, resolution, horizon, runs), flush=True)
+                print(row(name, resolution, horizon, runs), flush=True)
 
 
 if __name__ == "__main__":

@@ -23,15 +23,20 @@ LADDERS = {
     "hopper": [(4, 5, 6, 8), (4, 6, 8), (5, 8, 12), (4, 6, 8, 12)],
     "one_side": [(10, 20, 30), (10, 20, 30, 40), (20, 30, 40)],
     "colliding": [(2, 3, 4), (2, 3, 4, 5), (3, 4, 5), (3, 4, 6)],
+    "low": [(4, 6, 8), (4, 6, 8, 12), (6, 8, 12), (6, 8, 12, 16)],
+    "ramp": [(8, 12, 16), (8, 12, 16, 20), (12, 16, 24), (12, 16, 20, 24)],
 }
-LATER = ("one_side", "colliding")  # run once bounds and shares had been chosen by the others
-TRUTH = {"a125": (64, 96), "a5": (32, 48), "hopper": (20, 24), "one_side": (60, 80), "colliding": (8, 10)}
+LATER = ("one_side", "colliding", "low", "ramp")  # run once bounds and shares had been chosen by the others
+TRUTH = {"a125": (64, 96), "a5": (32, 48), "hopper": (20, 24), "one_side": (60, 80), "colliding": (8, 10),
+         "low": (24, 32), "ramp": (40, 48)}
 QUANTITIES = {
     "a125": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
     "a5": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
     "hopper": ("peak_height", "width_50", "width_90", "width_98", "left"),
     "one_side": ("peak_height", "x_q75", "x_q95", "x_q99", "rest_time"),
     "colliding": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
+    "low": ("peak_height", "width_50", "width_90", "width_98", "rest_time"),
+    "ramp": ("peak_height", "x_q75", "x_q95", "x_q99", "rest_time"),
 }
 
 Values = dict[tuple[str, str], dict[int, list[float]]]

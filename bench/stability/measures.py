@@ -8,6 +8,7 @@ import numpy as np
 
 import runs
 from coefficients import CRITERION, Coefficient
+from markdown import NONE, signed
 from results import Collection, Result
 
 QUANTITIES = {"peak": "peak", "bulk": "run-out of 90 % of the mass", "spread": "run-out of 98 % of the mass"}
@@ -38,6 +39,10 @@ class Change:
 
     value: float
     doubt: float
+
+    @property
+    def text(self) -> str:
+        return NONE if math.isnan(self.value) else f"{signed(100 * self.value, 1)} ± {100 * self.doubt:.1f} %"
 
     @property
     def verdict(self) -> str:

@@ -96,7 +96,7 @@ def limits(path: Path, results: Collection) -> bool:
                     [v for v, _ in found], [r.summary[grade] for _, r in found], color=COLORS[s.key], linestyle=line,
                     marker="o", mfc=filled,
                 )  # fmt: skip
-        if axis.values == runs.LIMIT_HORIZONS:
+        if axis.values == runs.SCHEMES["default"].limit_horizons:
             h = np.linspace(min(axis.values), max(axis.values), 8)
             ax.plot(h, [theory.surface(x) for x in h], color="black", lw=1.2)
             ax.plot(h, [theory.interior(x) for x in h], color="black", lw=1.2, ls=":")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
+import deposit
 import document
 import headlines
 import long_shear
@@ -62,7 +63,7 @@ of flowing layers pair.
 "Within doubt": the scatter left is larger than the distance to {100 * CRITERION:g} %; ± is two standard errors of the difference of two
 ensembles' means.
 
-{sections.criterion(collection)}
+{deposit.criterion(collection)}
 
 ### Every coefficient
 
@@ -70,44 +71,42 @@ Bold: the default. "At rest" is the time from which `gp_state.at_rest` stays 1; 
 it does so before 1 s, if not all. The ledger error is the largest of all runs at any time. The last coefficients, from
 {SCENE[0].name} on, are of the scene or of the material and stand for comparison.
 
-{sections.sensitivity(collection)}
+{deposit.sensitivity(collection)}
 
-{sections.threads(collection)}
+{deposit.threads(collection)}
 
 ### Constants that are no settings
 
-Measured once by hand, with libraries that have half and twice the constant; means of 8 runs, peak ± 0.5 %, run-outs ± 0.6 %.
+Each with a library in which it alone has half or twice its value ([constants.py](../bench/stability/constants.py)), against the
+defaults; {runs.CONSTANT_SEEDS} runs, ± is two standard errors.
 
-| constant | half | as it is | twice | peak y/L | run-out, 90 % |
-|---|---:|---:|---:|---:|---:|
-| strain in which the density follows the spacing | 1.5 | 3 | 6 | 0.413, 0.413, 0.412 | 1.084, 1.081, 1.078 |
-| most that crowding makes of the density, over ρ0 - 1 | 0.025 | 0.05 | 0.1 | 0.413, 0.413, 0.413 | 1.076, 1.081, 1.085 |
-| steepest ratio of a ghost's tangential velocity away from yield | 0.25 | 0.5 | 1 | 0.411, 0.413, 0.414 | 1.081, 1.081, 1.082 |
-| ratio of a ghost's normal velocity | 0.125 | 0.25 | 0.5 | 0.412, 0.413, 0.413 | 1.071, 1.081, 1.083 |
-| least penalty inside the yield surface | 0.1 | 0.2 | 0.4 | 0.412, 0.413, 0.413 | 1.078, 1.081, 1.077 |
+{verdicts.constants(collection)}
+
+{deposit.constants(collection)}
 
 ### The horizon
 
-Against the finest, L/dl = {runs.FINEST}, with the default of 4. From L/dl = 32 on collapses of beads are as sure with 3 as with 4, at three
-quarters of the time. It is not the default, as elsewhere it is not: a drum and bowls of 24 and 96 plates do not come to rest,
-few grains that meet or fall on a floor gain energy, a layer of ten rows on 26° is 3 % slow, and more than twice as much of a
-front on 16° comes off.
+Against the finest, L/dl = {runs.FINEST}, with the default of 4.
 
-{sections.horizons(collection)}
+{deposit.horizons(collection)}
+
+The cheaper horizon of 3 is not the default. By the sources of commit 6fbe2c5 (November 2026; not measured by this report) with it a
+drum and bowls of 24 and 96 plates did not come to rest, few grains that met or fell on a floor gained energy, a layer of ten rows on
+26° was 3 % slow, and more than twice as much of a front on 16° came off.
 
 ### The yardstick: the scatter of a run
 
 The flow is chaotic. Runs whose particles start {runs.JITTER:g} dl at most beside each other's end in deposits that differ by
 
-{sections.scatter(collection)}
+{deposit.scatter(collection)}
 
 Scatter is the standard deviation of one run.
 
 ### What to set
 
-{sections.recommended()}
+{deposit.recommended()}
 
-{sections.dissipation(collection)}
+{deposit.dissipation(collection)}
 
 ## Largest time step
 
@@ -178,8 +177,8 @@ horizon holds a grain by few neighbours.
 
 A layer of 20 d on an incline of {long_shear.ANGLE}°, its particles on the lattice or jittered, over {long_shear.END:g} s: mean height over
 that of the start; velocity of the uppermost row over Bagnold's at its height, of 12 particles at one instant, and the mean
-of the four. Before 0.2.0 density did not follow the spacing of the particles, and layers sank without end: with h/dl = 10 by
-28 % within 12 s.
+of the four. In 0.1.0 density did not follow the spacing of the particles, and layers sank without end: with h/dl = 10 by 28 % within
+12 s.
 
 {long_shear.section(collection)}
 
@@ -211,14 +210,10 @@ dissipates:
 
 ## Resolution and size
 
-Ensembles to their rest; ± is two standard errors. `scripts/stability --long` adds L/dl = 256 and 512 and the run with a
-million particles.
+Ensembles to their rest; ± is two standard errors. `scripts/stability --long` adds L/dl = 256 and 512, hours of one core, and the
+run with a million particles.
 
 {sections.resolution(collection)}
-
-L/dl = 512, 163 840 particles, takes more than two CPU hours to 1 s. It was run once, by hand, to 0.7 s (80 CPU minutes, 62 828 steps,
-2.1e6 particle-steps per CPU second): peak y/L 0.4227, tips at -0.1522 and +0.1502 m, kinetic energy 2.7e-7 of E0 and falling
-slowly, ledger error 0.007 % of E0.
 
 {figure("resolution", drawn, "Peak, run-out and run time against the resolution")}
 

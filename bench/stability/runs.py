@@ -6,83 +6,31 @@ from dataclasses import dataclass
 from typing import Callable
 
 from coefficients import COEFFICIENTS, FINE, NUMERICAL, Coefficient
+from constants import CONSTANTS, Constant
 from long_shear import PROGRAM as WALLS
 from long_shear import long_shear
 from run import Program, Run
-from theory import SHEAR_TO_BULK
+from schemes import SCHEMES, Scheme
 
 GRAVITY, HEIGHT, WIDTH = 9.81, 0.05, 0.08  # m/s2, m, m: of every trial
-# Particle-steps per CPU second of one core, for the estimates of the remaining time only.
-TYPICAL_RATE = 2.4e6
+# Particle-steps per CPU second of one core, of many particles; half of it with the coarse L/dl. For the estimates of the remaining time
+# only.
+TYPICAL_RATE, COARSE = 3e6, 16
 SOUND_SPEED = 10 * math.sqrt(2 * GRAVITY * HEIGHT)  # m/s, automatic
 ARREST = 0.42  # s, by when the default scheme's collapse has come to rest
 
+SOURCES = (
+    *(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "marks", "roughness", "trial", "table", "options")),
+    "examples/c/example.[ch]",
+)
 PROGRAMS = {
-    "stability": Program(
-        "bench/stability",
-        (
-            *(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "marks", "roughness", "trial", "table", "options")),
-            "examples/c/example.[ch]",
-        ),
-        records=True,
+    "stability": Program("bench/stability", SOURCES, records=True),
+    "constant": Program(
+        "bench/stability/changed_constant.py",
+        (*SOURCES, "bench/stability/changed_constant.py", "bench/stability/constants.py"),
+        records=True, script=True,
     ),
     "walls": WALLS,
-}
-
-
-@dataclass(frozen=True)
-class Scheme:
-    """One line here is all that a scheme needs to take part in the studies."""
-
-    key: str  # what --scheme calls it
-    label: str
-    wave_factor: float  # elastic wave speed over c0: what the time step is counted in
-    own_cfl: float  # where little moves; 0.84 of it where much does
-    smallest: float  # dl / wave speed, of the reference in the search for the largest time step
-    cfls: tuple[float, ...]  # tried for creep,
-    drift_cfls: tuple[float, ...]  # and for drift at rest
-    deltas: tuple[float, ...]  # 1/s, tried for creep; the first is that of all other runs
-    limit_deltas: tuple[float, ...]
-    limit_resolutions: tuple[int, ...] = (16, 32)
-    limit_resolution: int = 16  # of the axis of horizons and of the layer
-    limit_sounds: tuple[float, ...] = (0.5, 1, 2, 5)
-    drift_end: float = 15.0  # s
-    drift_deltas: tuple[tuple[float, float, float], ...] = ()  # beside its own; each with cfl and end of its run (s)
-    preset_delta: float = 1e-6  # 1/s
-    resolution: int = 32  # L/dl, of creep
-    cost: float = 1.0  # of a particle-step, in that of the default scheme
-    force_states: bool = True  # the horizon is that of its operators; else the interaction radius
-    explicit_viscosity: bool = False  # the regularised one of the paper
-    shear_to_bulk: float = 0.0  # elastic moduli
-
-    @property
-    def reach_option(self) -> str:
-        return "horizon" if self.force_states else "interaction_radius"
-
-    @property
-    def delta_option(self) -> float | None:
-        return None if self.deltas[0] == self.preset_delta else self.deltas[0]
-
-
-PAPER_CFLS = {"cfls": (0.1, 0.2, 0.4, 0.8), "drift_cfls": (0.2, 0.8), "explicit_viscosity": True}
-PAPER_DELTAS = {"deltas": (1e-6, 1e-2, 1.0, 10.0), "limit_deltas": (1e-6, 1e-4, 1e-2)}
-SCHEMES = {
-    scheme.key: scheme
-    for scheme in (
-        Scheme(
-            "default", "default", math.sqrt(1 + SHEAR_TO_BULK), 0.95, 0.4, (0.2, 0.4, 0.95), (0.2, 0.4, 0.95, 1.4), (1e-6, 1e-2),
-            (1e-6, 1e-2), limit_resolutions=(16, 32, 64), limit_resolution=32, drift_end=60.0,
-            shear_to_bulk=SHEAR_TO_BULK,
-        ),
-        Scheme("paper", "paper, non-local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS),
-        Scheme("local", "paper, local", 1.0, 0.2, 0.2, **PAPER_CFLS, **PAPER_DELTAS, force_states=False),
-        # A step costs the more the smaller delta: coarse, and with a delta at which creep is small already.
-        Scheme(
-            "implicit", "implicit", 1.0, 0.95, 0.4, (0.4, 0.95), (0.95,), (1e-2, 1.0, 1e-1, 1e-3, 1e-4, 1e-6),
-            (1e-2, 1e-1), limit_resolutions=(16,), limit_sounds=(0.5, 1, 2), resolution=16, cost=8.0,
-            drift_deltas=((1e-3, 0.95, 15.0), (1e-4, 0.95, 60.0), (1e-4, 0.4, 15.0), (1e-5, 0.95, 60.0)),
-        ),
-    )
 }  # fmt: skip
 
 
@@ -92,7 +40,7 @@ def cost_of(
     """CPU s of a collapse."""
     particles = resolution**2 * HEIGHT / WIDTH
     steps = end * sound * SOUND_SPEED * scheme.wave_factor * resolution / WIDTH / (cfl or scheme.own_cfl)
-    return scheme.cost * particles * steps / TYPICAL_RATE * max(0.5, (reach / 4) ** 2)
+    return scheme.cost * particles * steps / TYPICAL_RATE * (1 + COARSE / resolution) * max(0.5, (reach / 4) ** 2)
 
 
 def _options(**values: float | str | None) -> tuple[str, ...]:
@@ -123,7 +71,6 @@ def collapse(scheme: str, resolution: int, end: float, long: bool = False, **mor
 # ---------------------------------------------------------------------------------------- largest time step
 
 LIMIT_END, LAYER_END = 0.6, 0.3  # s: a collapse has come to rest by then, and the jitter of a layer died down
-LIMIT_HORIZONS = (2.2, 3, 4, 5)
 # Of the default scheme's layer beside the horizons: bulk_viscosity and zero_energy_penalty, which count in the theory.
 LIMIT_DAMPING = ((0.0, 0.02), (1.0, 0.02), (0.1, 0.0), (0.1, 0.5))
 
@@ -141,7 +88,7 @@ def limit(
     s = SCHEMES[scheme]
     resolution = resolution or s.limit_resolution
     layer = scene == "layer"
-    seeds = 1 if layer or resolution == 64 or s.cost > 1 else 2
+    seeds = 2 if not layer and s.key == "default" else 1
     options = _options(
         resolution=resolution,
         sound_factor=None if sound == 1 else sound,
@@ -173,10 +120,10 @@ class Axis:
 
 
 AXES = (
-    Axis("L/dl", (16, 32, 64), lambda s: s.limit_resolutions, lambda s, v: limit(s, "collapse", resolution=int(v))),
-    Axis("c0 / automatic (L/dl = 16)", (0.5, 1, 2, 5), lambda s: s.limit_sounds, lambda s, v: limit(s, "collapse", resolution=16, sound=v)),
-    Axis("horizon / dl", LIMIT_HORIZONS, lambda s: LIMIT_HORIZONS, lambda s, v: limit(s, "collapse", horizon=v)),
-    Axis("delta (1/s; L/dl = 16)", (1e-6, 1e-4, 1e-2, 1e-1), lambda s: s.limit_deltas, lambda s, v: limit(s, "collapse", resolution=16, delta=v)),
+    Axis("L/dl", (16, 32), lambda s: s.limit_resolutions, lambda s, v: limit(s, "collapse", resolution=int(v))),
+    Axis("c0 / automatic (L/dl = 16)", (0.5, 1, 2), lambda s: s.limit_sounds, lambda s, v: limit(s, "collapse", resolution=16, sound=v)),
+    Axis("horizon / dl", (2.2, 3, 4, 5), lambda s: s.limit_horizons, lambda s, v: limit(s, "collapse", horizon=v)),
+    Axis("delta (1/s; L/dl = 16)", (1e-6, 1e-4, 1e-2), lambda s: s.limit_deltas, lambda s, v: limit(s, "collapse", resolution=16, delta=v)),
 )
 
 
@@ -186,7 +133,7 @@ def limits_of(scheme: str) -> list[Run]:
     found = [limit(scheme, scene) for scene in ("collapse", "layer")]
     for axis in AXES:
         found += [axis.run(scheme, value) for value in axis.of(s)]
-    found += [limit(scheme, "layer", horizon=h) for h in LIMIT_HORIZONS]
+    found += [limit(scheme, "layer", horizon=h) for h in s.limit_horizons]
     if scheme == "default":
         found += [limit(scheme, "layer", damping=d) for d in LIMIT_DAMPING]
     return found
@@ -211,14 +158,12 @@ def creep(scheme: str, cfl: float | None = None, delta: float | None = None) -> 
     )
 
 
-def drift(
-    scheme: str, cfl: float, resolution: int = 16, delta: float | None = None, end: float | None = None
-) -> Run:
+def drift(scheme: str, cfl: float, resolution: int = 16, delta: float | None = None) -> Run:
     s = SCHEMES[scheme]
     return collapse(
         scheme,
         resolution,
-        end or s.drift_end,
+        s.drift_end,
         cfl=None if cfl == s.own_cfl else cfl,
         delta=delta or s.delta_option,
         drift_from=DRIFT_FROM,
@@ -234,8 +179,11 @@ class Rest:
     resolution: int
     cfl: float
     delta: float | None
-    end: float  # s
     run: Run
+
+    @property
+    def end(self) -> float:
+        return self.scheme.drift_end
 
     @property
     def label(self) -> str:
@@ -245,11 +193,10 @@ class Rest:
 
 
 def rests_of(s: Scheme) -> list[Rest]:
-    found = [Rest(s, 16, cfl, s.delta_option, s.drift_end, drift(s.key, cfl)) for cfl in s.drift_cfls]
-    for delta, cfl, end in s.drift_deltas:
-        found.append(Rest(s, 16, cfl, delta, end, drift(s.key, cfl, delta=delta, end=end)))
+    found = [Rest(s, 16, cfl, s.delta_option, drift(s.key, cfl)) for cfl in s.drift_cfls]
+    found += [Rest(s, 16, s.own_cfl, delta, drift(s.key, s.own_cfl, delta=delta)) for delta in s.drift_deltas]
     if s.key == "default":
-        found.append(Rest(s, 32, s.own_cfl, None, s.drift_end, drift_fine()))
+        found.append(Rest(s, 32, s.own_cfl, None, drift_fine()))
     return found
 
 
@@ -325,6 +272,23 @@ def varied(c: Coefficient, value: float, resolution: int = 32) -> Run:
     return ensemble((c.option, f"{value:g}"), resolution, seeds, scale)
 
 
+CONSTANT_SEEDS = MORE_SEEDS
+COMPILE_SECONDS = 5.0  # CPU s, of what a constant is in; all of the library, before the first, takes some 150
+
+
+def by_constant(constant: Constant, value: str) -> Run:
+    """The ensemble of the defaults with the library changed."""
+    usual = ensemble(seeds=CONSTANT_SEEDS)
+    cost = usual.cost + COMPILE_SECONDS
+    return Run(
+        _name("constant", constant.name, value), "constant", (constant.name, value, "stability", *usual.arguments), cost
+    )
+
+
+def by_constants() -> list[Run]:
+    return [by_constant(c, value) for c in CONSTANTS for value in c.others]
+
+
 # Whether a narrower horizon, which costs less, is as sure: by resolution, against the finest.
 HORIZONS = (2.5, 3.0, 4.0, 6.0)
 HORIZON_RESOLUTIONS = (16, 32, 64)
@@ -340,7 +304,7 @@ def threads_run(threads: int) -> Run:
 
 
 # Coarse deposits of beads and of grains so large that their friction is mu_2 at any rate: whether they come to rest.
-COARSE_HORIZONS = (2.2, 2.6, 3.0, 4.0, 5.0, 6.0)
+COARSE_HORIZONS = (2.2, 3.0, 4.0, 6.0)
 COARSE_DIAMETERS = (0.002, 0.1, 1.0, 100.0)  # m
 COARSE_RESOLUTIONS = (8, 16)
 
@@ -398,6 +362,7 @@ def studies() -> dict[str, list[Run]]:
         "modes": [mode(pattern, penalty) for pattern in MODES for penalty in MODE_PENALTIES],
         "sensitivity": sensitivity(),
         "sensitivity_fine": sensitivity_fine(),
+        "constants": by_constants(),
         "horizons": [by_horizon(r, h) for r in HORIZON_RESOLUTIONS for h in HORIZONS] + [resolution_run(FINEST)],
         "coarse": [
             coarse(r, d, h) for r in COARSE_RESOLUTIONS for d in COARSE_DIAMETERS for h in COARSE_HORIZONS

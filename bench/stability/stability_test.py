@@ -17,7 +17,8 @@ import results
 import runs
 import theory
 from coefficients import COEFFICIENTS
-from run import cheapest_first
+from constants import CONSTANTS
+from run import ROOT, cheapest_first
 
 
 def check_theory() -> None:
@@ -29,6 +30,16 @@ def check_theory() -> None:
     assert all(0.8 < step / h < 1.3 for step, h in zip(steps[1:], (3.0, 4.0, 5.0)))
     decay = [theory.checkerboard_decay(4.0, penalty, "checkerboard") for penalty in (0.0, 0.02, 0.1, 0.4)]
     assert decay[0] == 0 and decay[1] == decay[2] and math.isclose(decay[3], 2 * decay[2])
+
+
+def check_constants() -> None:
+    """Each is where it is said to be, with the value that is said, and another one can be put in its place."""
+    own = {c.name: c.own for c in CONSTANTS}
+    for c in CONSTANTS:
+        for value in c.others:
+            assert c.changed(ROOT, value) != (ROOT / c.file).read_bytes(), c.name
+    assert float(own["shear_to_bulk"]) == theory.SHEAR_TO_BULK
+    assert float(own["least_elastic_penalty"]) == theory.ELASTIC_PENALTY
 
 
 def check_ensemble(result: results.Result) -> None:
@@ -56,6 +67,7 @@ def check_mode(result: results.Result, penalty: float) -> None:
 def main() -> None:
     place = Workplace.asked_for(HERE, __doc__)
     check_theory()
+    check_constants()
 
     penalties = (0.1, 0.5)  # below what is the least inside the yield surface, and above it
     ensemble, modes = runs.resolution_run(8), [runs.mode("checkerboard", penalty) for penalty in penalties]

@@ -6,10 +6,11 @@ import math
 import runs
 import theory
 from coefficients import CRITERION, NUMERICAL
+from constants import CONSTANTS
 from markdown import significant
-from measures import QUANTITIES, between, changes, mean, root_mean_square, share_at_rest
+from measures import QUANTITIES, between, change, changes, mean, root_mean_square, share_at_rest
 from results import Collection, Result
-from sections import FLOW, REST, present, with_doubt
+from sections import FLOW, REST, present
 
 CREEPS = 0.005  # of the peak, between arrest and 3 s
 
@@ -30,13 +31,13 @@ def criterion(results: Collection) -> list[str]:
             continue
         passed = [name for name, found in known.items() if all(one.verdict == "passes" for _, one in found)]
         failed = [
-            f"{name} at {value:g} ({with_doubt(one)})"
+            f"{name} at {value:g} ({one.text})"
             for name, found in known.items()
             for value, one in found
             if one.verdict == "FAILS"
         ]
         open_ones = [
-            f"{name} at {value:g} ({with_doubt(one)})"
+            f"{name} at {value:g} ({one.text})"
             for name, found in known.items()
             for value, one in found
             if "doubt" in one.verdict
@@ -54,6 +55,23 @@ def criterion(results: Collection) -> list[str]:
 HEADLINE = ("peak", "bulk")  # that the first paragraph is about
 
 
+def constants(results: Collection) -> str:
+    """The same of those that are no settings."""
+    base = results(runs.base_ensemble())
+    found = [(c, value, results(runs.by_constant(c, value))) for c in CONSTANTS for value in c.others]
+    if not base or not all(result for *_, result in found):
+        return ""
+    beyond = [
+        f"`{c.name}` {value} ({QUANTITIES[column]} {one.text})"
+        for column in HEADLINE
+        for c, value, result in found
+        if abs((one := change(result, base, column)).value) > CRITERION
+    ]
+    return f"Peak and run-out of 90 % of the mass change by less than {100 * CRITERION:g} %" + (
+        f", but for {', '.join(beyond)}." if beyond else "."
+    )
+
+
 def in_short(results: Collection) -> str:
     """The paragraph that the report begins with."""
     parts = (_criterion_in_short, _scatter, _horizon_in_short, _rest, _step)
@@ -68,7 +86,7 @@ def _criterion_in_short(results: Collection) -> str:
         return ""
     within = f"Half or twice a coefficient of the scheme changes the deposit of a collapse (L/dl = 32) by less than {100 * CRITERION:g} %"
     beyond = [
-        f"{c.name} {value:g} ({QUANTITIES[column]} {with_doubt(one)})"
+        f"{c.name} {value:g} ({QUANTITIES[column]} {one.text})"
         for column in HEADLINE
         for c, value, one in known[column]
         if abs(one.value) > CRITERION
@@ -123,16 +141,17 @@ def _step(results: Collection) -> str:
 
 def against_theory(results: Collection) -> str:
     """How far von Neumann's analysis is off."""
+    horizons = runs.SCHEMES["default"].limit_horizons
     cases = [
         (results(runs.limit("default", "layer", horizon=h)), theory.surface(h), theory.interior(h))
-        for h in runs.LIMIT_HORIZONS
+        for h in horizons
     ]
     calm = [r.summary["stable"] / surface - 1 for r, surface, _ in cases if r]
     bounded = [r.summary["bounded"] / inside - 1 for r, _, inside in cases if r]
     if not calm:
         return ""
     return (
-        f"With horizons of {runs.LIMIT_HORIZONS[0]:g} to {runs.LIMIT_HORIZONS[-1]:g} dl the layer stays calm up to steps that are "
+        f"With horizons of {horizons[0]:g} to {horizons[-1]:g} dl the layer stays calm up to steps that are "
         f"{100 * min(calm):+.0f} to {100 * max(calm):+.0f} % off von Neumann's analysis beside a free surface, and makes no energy up to "
         f"steps {100 * min(bounded):+.0f} to {100 * max(bounded):+.0f} % off that of the interior."
     )

@@ -128,7 +128,12 @@ A block of 40 x 10 spacings, down 30° for 0.15 s.
 ### Bowls
 
 A half circle of 5 cm radius, filled to its middle on a lattice that does not fit it. What comes to rest should only take energy: "given
-back" is the most by which `gp_state.wall_dissipated` is below an earlier value.
+back" is the most by which `gp_state.wall_dissipated` is below an earlier value. What moves on is no single grain but the whole, up and
+down in its lowest wave (a quarter of a wave from the bottom to the surface). Its walls take pressure times way from what comes nearer,
+and give it back to what goes away, as a spring does: their ghosts carry a quarter of the motion normal to them, so that the density
+does not tell the rest of the compression there. Little but the bulk viscosity damps that wave, which is in proportion to the spacing:
+the kinetic energy falls at 15, 6, 4 /s with dl = 2.5, 1.25, 0.625 mm (24 segments, the first half second). 96 segments with dl = 1.25 mm
+are at rest at 0.54 s with `bulk_viscosity` 0.4 in place of 0.1, and at 0.33 s with a `sound_speed` of 20 m/s in place of 9.9, which gives back 2.4 %.
 
 {_bowl(results)}
 

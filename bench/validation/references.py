@@ -1,7 +1,7 @@
 """Published numbers that docs/validation.md stands beside ours. Every one names its source; none of them is ours."""
 import math
 
-JIN = "Jin, Lu, Tai & Xu (2021), J. Fluid Mech. 917"
+# Jin et al. (2021): Jin, Lu, Tai & Xu, J. Fluid Mech. 917.
 XU2017 = "experiment of Xu et al. (2017), as quoted by Jin et al. (2021)"
 XU2019 = "experiment of Xu et al. (2019), as quoted by Jin et al. (2021)"
 MANGENEY = "experiment of Mangeney et al. (2010), as described by Jin et al. (2021)"

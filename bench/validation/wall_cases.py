@@ -87,6 +87,10 @@ def _silo(results: Collection) -> list[Case]:
             f"tall silo: load of the floor, {floor:.3f} of the weight (Janssen, K = 1)", "± 10 %", 0.10,
             [(label, r.summary["floor"] / floor - 1) for label, r in found], "{percent}, {label}", None,
         ),
+        worst(
+            "tall silo: load of the floor, to Janssen's with K above the floor and T/N of the run", "± 10 %", 0.10,
+            [(label, r.summary["floor"] / sections.own_floor(r) - 1) for label, r in found], "{percent}, {label}", None,
+        ),
     ]  # fmt: skip
 
 

@@ -5,7 +5,7 @@ import math
 
 import wall_runs as runs
 from markdown import NONE, cpu, fixed, percent, table
-from results import Collection
+from results import Collection, Result
 
 HEADER = ["case", "right", "ours", "error", "CPU s"]
 
@@ -149,23 +149,21 @@ def janssen(mu: float, ratio: float = 1.0) -> float:
     return (1 - math.exp(-depth)) / depth
 
 
-def stress_ratio(mu: float, floor: float) -> float:
-    """K with which Janssen's formula has this share on the floor."""
-    low, high = 0.01, 100.0
-    while high - low > 1e-9:
-        middle = (low + high) / 2
-        low, high = (middle, high) if janssen(mu, middle) > floor else (low, middle)
-    return low
+def own_floor(result: Result) -> float:
+    """Janssen's share with T/N at the walls, and K in the lowest width of the silo, of the run."""
+    return janssen(result.summary["friction"], result.summary["ratio"])
 
 
 def silo(results: Collection) -> str:
     rows, law = [], wall_friction()
     for n in runs.SILO_ROWS:
         run = runs.silo(n)
-        friction, floor = _value(results, run, "friction"), _value(results, run, "floor")
-        ratio = None if floor is None or friction is None else stress_ratio(friction, floor)
+        result = results(run)
+        friction, floor, ratio = (_value(results, run, name) for name in ("friction", "floor", "ratio"))
+        own = own_floor(result) if result else None
         rows.append([f"W/dl = {n}, T/N at the walls", fixed(law), fixed(friction), percent(friction, law), ""])
         rows.append([f"W/dl = {n}, floor over weight", fixed(janssen(MU_S)), fixed(floor), percent(floor, janssen(MU_S)), ""])
+        rows.append([f"W/dl = {n}, the same, with K and T/N of ours", fixed(own), fixed(floor), percent(floor, own), ""])
         rows.append([f"W/dl = {n}, K", "1", fixed(ratio, 2), percent(ratio, 1), _cpu(results, run)])
     return table(HEADER, rows)
 
@@ -212,7 +210,9 @@ matters little on slopes as small as this one (Mangeney et al. 2010); right is w
 μ(I) has deep in the silo: the shear stress falls linearly from the walls, the core moves as a plug, and the layers beside
 the walls that take its {1000 * SILO_SPEED:g} mm/s are {1000 * _sheared(wall_friction()):.1f} mm thick. For the floor "right" is Janssen's share of the
 weight with K = 1 and tan 21°: a convention, not a solution. The law does not say what the vertical stress of the plug is, which
-is not at yield; a floor that gives way takes it off the plug above, while the pressure on the walls stays. K of ours is
-that with which Janssen's formula has our floor's share.
+is not at yield; a floor that gives way takes it off the plug above, while the pressure on the walls stays. K of ours is the
+horizontal stress beside the walls, 2 dl wide, over the vertical stress, both less than a width above the floor: from 0.8 at the top
+of the silo it grows to 1 in its middle and 1.3 to 1.5 at the floor. With this K and T/N of the run Janssen's formula has the floor's
+load: what the floor lacks of "right" is K.
 
 {silo(results)}"""

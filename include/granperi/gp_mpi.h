@@ -10,15 +10,18 @@
  *   callbacks          are called on each process, and have to return the same everywhere.
  * States, loads, surfaces and interfaces are those of the whole, on every process; for them and for frames the first process needs
  * about 120 bytes for each particle of the whole. At the first step, or the first reading before it, for gp_save and for gp_load_mpi
- * it puts the whole together, with about 700, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
+ * it puts the whole together, with about 600, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
  * two states do. Files are written by the first process, in the layout of a process alone: either goes on from the other's, on any
  * number of processes.
  *
  * Positions, velocities, stresses, loads and the clock are the same bits on any number of processes and threads; the energies
  * of gp_state that are summed up in the course of a run are the same but for rounding.
  *
- * Errors come everywhere with one text, but for GP_E_MEMORY and GP_E_INTERNAL: after these a process may be alone with its error
- * while others wait for it, and MPI_Abort is what is left. gp_config.sleep and the paper's schemes are GP_E_UNSUPPORTED. */
+ * Errors come everywhere in the same call, with one status and one text. That of one process alone, out of memory for instance, is
+ * named, "rank 2: out of memory"; it is the end of this simulation, whose later calls say the same, but not of the program: others
+ * can be made. The exceptions: the calls that only read what is here (gp_get_particles, gp_get_plate_load, gp_get_plan,
+ * gp_get_clock) fail here alone, and do no harm; and memory that MPI or Zoltan lack themselves is beyond this library.
+ * gp_config.sleep and the paper's schemes are GP_E_UNSUPPORTED. */
 #ifndef GRANPERI_GP_MPI_H
 #define GRANPERI_GP_MPI_H
 

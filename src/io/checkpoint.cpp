@@ -6,6 +6,7 @@
 #include "check.hpp"
 #ifdef GP_WITH_HDF5
 #include "io/checkpoint_parts.hpp"
+#include "io/checkpoint_scene.hpp"
 #include "io/checkpoint_sleep.hpp"
 #include "io/safe_file.hpp"
 #include "parts.hpp"
@@ -29,78 +30,6 @@ void load_checkpoint(const std::string &, const std::function<Sim &(const gp_con
 namespace {
 
 // ------------------------------------------------------------------------------------------------------- saving
-
-void write_scene(CheckpointWriter &file, const Scene &scene) {
-    file.group("/config");
-    exchange_config(file, scene.config());
-    MaterialTable materials;
-    for (const gp_material &m : scene.materials()) {
-        materials.grain_density.push_back(m.grain_density);
-        materials.volume_fraction.push_back(m.volume_fraction);
-        materials.grain_diameter.push_back(m.grain_diameter);
-        materials.mu_s.push_back(m.mu_s);
-        materials.mu_2.push_back(m.mu_2);
-        materials.i0.push_back(m.i0);
-        materials.nonlocal_amplitude.push_back(m.nonlocal_amplitude);
-        materials.fluidity_time.push_back(m.fluidity_time);
-        materials.k0.push_back(m.k0);
-    }
-    exchange_materials(file, materials);
-
-    BodyTable bodies;
-    for (const Body &b : scene.bodies()) {
-        bodies.material.push_back(b.material);
-        bodies.is_column.push_back(b.rectangle);
-        bodies.initial_pressure.push_back(b.hydrostatic ? GP_INITIAL_HYDROSTATIC : GP_INITIAL_NONE);
-        bodies.count.push_back(b.count);
-        bodies.x_min.push_back(b.x_min);
-        bodies.y_min.push_back(b.y_min);
-        bodies.width.push_back(b.width);
-        bodies.height.push_back(b.height);
-        bodies.column_vx.push_back(b.rectangle ? scene.vx[b.first] : 0.0);
-        bodies.column_vy.push_back(b.rectangle ? scene.vy[b.first] : 0.0);
-        if (b.rectangle)
-            continue;
-        const auto append = [&](std::vector<double> &to, const std::vector<double> &from) {
-            to.insert(to.end(), from.begin() + b.first, from.begin() + b.first + b.count);
-        };
-        append(bodies.x, scene.x);
-        append(bodies.y, scene.y);
-        append(bodies.vx, scene.vx);
-        append(bodies.vy, scene.vy);
-    }
-    exchange_bodies(file, bodies);
-
-    PlateTable plates;
-    for (const PlateSpec &p : scene.plates()) {
-        plates.n_points.push_back(p.points.size() > 2 ? static_cast<int64_t>(p.points.size()) : 0);
-        for (const Vector &point : p.points) {
-            plates.point_x.push_back(point.x());
-            plates.point_y.push_back(point.y());
-        }
-        plates.friction.push_back(p.friction);
-        plates.fluidity.push_back(p.fluidity);
-        plates.wall_mu.push_back(p.wall_mu);
-        plates.pivot_x.push_back(p.pivot.x());
-        plates.pivot_y.push_back(p.pivot.y());
-        plates.vx.push_back(p.motion.velocity.x());
-        plates.vy.push_back(p.motion.velocity.y());
-        plates.omega.push_back(p.motion.omega);
-        plates.surface_velocity.push_back(p.surface_velocity);
-        plates.start_x.push_back(p.start.x());
-        plates.start_y.push_back(p.start.y());
-        plates.start_angle.push_back(p.start_angle);
-        plates.normal_pressure.push_back(p.load);
-        plates.mass_per_length.push_back(p.mass);
-        plates.n_knots.push_back(static_cast<int64_t>(p.table.t.size()));
-        plates.knot_t.insert(plates.knot_t.end(), p.table.t.begin(), p.table.t.end());
-        plates.knot_x.insert(plates.knot_x.end(), p.table.x.begin(), p.table.x.end());
-        plates.knot_y.insert(plates.knot_y.end(), p.table.y.begin(), p.table.y.end());
-        plates.n_knot_angles.push_back(static_cast<int64_t>(p.table.angle.size()));
-        plates.knot_angle.insert(plates.knot_angle.end(), p.table.angle.begin(), p.table.angle.end());
-    }
-    exchange_plates(file, plates);
-}
 
 void write_world(CheckpointWriter &file, const World &world) {
     exchange_clock_and_sums(file, world);
@@ -165,167 +94,6 @@ void write_world(CheckpointWriter &file, const World &world) {
 
 // Steps and the like that no run comes to, and that can still be counted on from.
 constexpr int64_t most_counted = int64_t{1} << 62;
-
-// Checks of what the host's own checks do not see: that tables fit together and indices stay within.
-class Checker {
-public:
-    explicit Checker(const CheckpointReader &file) : file_(file) {}
-
-    void require(bool good, const std::string &what) const {
-        if (!good)
-            file_.refuse(what);
-    }
-    template <class Array> void same_size(const char *what, const Array &array, std::size_t size) const {
-        require(array.size() == size, format_text("%s: %zu values, expected %zu", what, array.size(), size));
-    }
-    template <class Array> void all_finite(const char *what, const Array &array) const {
-        for (const double value : array)
-            require(std::isfinite(value), format_text("%s: %g, expected a finite number", what, value));
-    }
-    void finite(const char *what, double value) const {
-        require(std::isfinite(value), format_text("%s: %g, expected a finite number", what, value));
-    }
-    void not_negative(const char *what, double value) const {
-        require(std::isfinite(value) && value >= 0, format_text("%s: %g, expected a number >= 0", what, value));
-    }
-    template <class Array> void permutation(const char *what, const Array &array) const {
-        std::vector<bool> seen(array.size());
-        for (const auto value : array) {
-            const bool good = value >= 0 && static_cast<std::size_t>(value) < array.size() && !seen[value];
-            require(good, format_text("%s: %lld, expected each place once", what, static_cast<long long>(value)));
-            seen[value] = true;
-        }
-    }
-
-private:
-    const CheckpointReader &file_;
-};
-
-void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
-    MaterialTable t;
-    exchange_materials(file, t);
-    const std::size_t n = t.grain_density.size();
-    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0, &t.nonlocal_amplitude,
-                              &t.fluidity_time, &t.k0})
-        check.same_size("materials", *array, n);
-    check.require(n > 0, "no material 0");
-    for (std::size_t k = 1; k < n; ++k) { // the first one is there
-        gp_material m = default_material();
-        m.grain_density = t.grain_density[k];
-        m.volume_fraction = t.volume_fraction[k];
-        m.grain_diameter = t.grain_diameter[k];
-        m.mu_s = t.mu_s[k];
-        m.mu_2 = t.mu_2[k];
-        m.i0 = t.i0[k];
-        m.nonlocal_amplitude = t.nonlocal_amplitude[k];
-        m.fluidity_time = t.fluidity_time[k];
-        m.k0 = t.k0[k];
-        sim.add_material(m);
-    }
-}
-
-void read_bodies(CheckpointReader &file, const Checker &check, Sim &sim) {
-    BodyTable t;
-    exchange_bodies(file, t);
-    const std::size_t n = t.material.size(), particles = t.x.size();
-    check.same_size("bodies", t.is_column, n);
-    check.same_size("bodies", t.initial_pressure, n);
-    check.same_size("bodies", t.count, n);
-    for (const auto *array : {&t.x_min, &t.y_min, &t.width, &t.height, &t.column_vx, &t.column_vy})
-        check.same_size("bodies", *array, n);
-    for (const auto *array : {&t.y, &t.vx, &t.vy})
-        check.same_size("particles of bodies", *array, particles);
-    const double spacing = sim.scene().config().spacing;
-    std::size_t first = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        const double count = static_cast<double>(t.count[k]);
-        if (t.is_column[k]) {
-            check.require(std::round(t.width[k] / spacing) * std::round(t.height[k] / spacing) == count,
-                          format_text("column %zu is not of %g particles", k, count));
-            gp_column c = default_column();
-            c.x_min = t.x_min[k];
-            c.y_min = t.y_min[k];
-            c.width = t.width[k];
-            c.height = t.height[k];
-            c.material = t.material[k];
-            c.vx = t.column_vx[k];
-            c.vy = t.column_vy[k];
-            c.initial_pressure = t.initial_pressure[k];
-            sim.add_column(c);
-        } else {
-            check.require(count > 0 && count <= static_cast<double>(particles - first),
-                          format_text("set %zu of particles has %g of %zu", k, count, particles - first));
-            sim.add_particles(t.material[k], t.count[k], &t.x[first], &t.y[first], &t.vx[first], &t.vy[first]);
-            first += static_cast<std::size_t>(t.count[k]);
-        }
-    }
-    check.require(first == particles,
-                  format_text("%zu of %zu particles belong to no body", particles - first, particles));
-}
-
-void read_plates(CheckpointReader &file, const Checker &check, Sim &sim) {
-    PlateTable t;
-    exchange_plates(file, t);
-    const std::size_t n = t.friction.size(), points = t.point_x.size(), knots = t.knot_t.size(),
-                      angles = t.knot_angle.size();
-    for (const auto *array : {&t.wall_mu, &t.pivot_x, &t.pivot_y, &t.vx, &t.vy, &t.omega, &t.surface_velocity,
-                              &t.start_x, &t.start_y, &t.start_angle, &t.normal_pressure, &t.mass_per_length})
-        check.same_size("plates", *array, n);
-    for (const auto *array : {&t.n_points, &t.n_knots, &t.n_knot_angles})
-        check.same_size("plates", *array, n);
-    check.same_size("plates", t.fluidity, n);
-    check.same_size("points", t.point_y, points);
-    check.same_size("knots", t.knot_x, knots);
-    check.same_size("knots", t.knot_y, knots);
-    std::size_t point = 0, knot = 0, angle = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        const auto has = [&](const char *what, int64_t count, std::size_t left) {
-            check.require(count >= 0 && static_cast<uint64_t>(count) <= left,
-                          format_text("plate %zu has %lld %s of %zu", k, static_cast<long long>(count), what, left));
-        };
-        const int64_t ends = t.n_points[k] == 0 ? 2 : t.n_points[k];
-        has("points", ends, points - point);
-        has("knots", t.n_knots[k], knots - knot);
-        has("angles", t.n_knot_angles[k], angles - angle);
-        check.require(t.n_knot_angles[k] == 0 || t.n_knot_angles[k] == t.n_knots[k],
-                      format_text("plate %zu has other numbers of angles and knots", k));
-        gp_plate p = default_plate();
-        if (t.n_points[k] == 0) {
-            p.x0 = t.point_x[point];
-            p.y0 = t.point_y[point];
-            p.x1 = t.point_x[point + 1];
-            p.y1 = t.point_y[point + 1];
-        } else {
-            p.n_points = t.n_points[k];
-            p.point_x = t.point_x.data() + point;
-            p.point_y = t.point_y.data() + point;
-        }
-        p.friction = t.friction[k];
-        p.fluidity = t.fluidity[k];
-        p.wall_mu = t.wall_mu[k];
-        p.pivot_x = t.pivot_x[k];
-        p.pivot_y = t.pivot_y[k];
-        p.vx = t.vx[k];
-        p.vy = t.vy[k];
-        p.omega = t.omega[k];
-        p.surface_velocity = t.surface_velocity[k];
-        p.n_knots = t.n_knots[k];
-        p.knot_t = t.knot_t.data() + knot;
-        p.knot_x = t.knot_x.data() + knot;
-        p.knot_y = t.knot_y.data() + knot;
-        if (t.n_knot_angles[k] > 0)
-            p.knot_angle = t.knot_angle.data() + angle;
-        p.normal_pressure = t.normal_pressure[k];
-        p.mass_per_length = t.mass_per_length[k];
-        sim.add_plate(p);
-        sim.set_plate_start(static_cast<int32_t>(k), {t.start_x[k], t.start_y[k]}, t.start_angle[k]);
-        point += static_cast<std::size_t>(ends);
-        knot += static_cast<std::size_t>(t.n_knots[k]);
-        angle += static_cast<std::size_t>(t.n_knot_angles[k]);
-    }
-    check.require(point == points, "points that belong to no plate");
-    check.require(knot == knots && angle == angles, "knots that belong to no plate");
-}
 
 void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w) {
     exchange_clock_and_sums(file, w);
@@ -511,25 +279,25 @@ OutputPosition read_position(CheckpointReader &file, const Checker &check) {
     return t.at;
 }
 
-void read_all(CheckpointReader &file, const std::function<Sim &(const gp_config &)> &create, OutputPosition &position) {
+struct Loaded {
+    Sim *sim = nullptr;
+    std::unique_ptr<World> world; // of several processes, the first one's
+    Progress progress;
+};
+
+Loaded read_all(CheckpointReader &file, const std::function<Sim &(const gp_config &)> &create,
+                OutputPosition &position) {
     const Checker check(file);
-    gp_config config = default_config(GP_PRESET_DEFAULT);
-    file.group("/config");
-    exchange_config(file, config);
-    Sim &sim = create(config);
-    read_materials(file, check, sim);
-    read_bodies(file, check, sim);
-    read_plates(file, check, sim);
+    Sim &sim = read_scene(file, check, create);
     Progress progress;
     exchange_progress(file, progress);
     check.require((progress.told & ~Warnings::all_kinds) == 0, "warnings of an unknown kind");
     check.not_negative("wall_seconds", progress.wall_seconds);
     position = read_position(file, check);
-    std::unique_ptr<World> world;
-    const auto read = [&] { world = read_world(file, check, sim.scene()); };
+    Loaded loaded{&sim, nullptr, progress};
     if (progress.started)
-        on_first(sim.crossing(), read);
-    sim.resume(std::move(world), progress);
+        on_first(sim.crossing(), [&] { loaded.world = read_world(file, check, sim.scene()); });
+    return loaded;
 }
 
 } // namespace
@@ -554,17 +322,21 @@ void save_checkpoint(const std::string &path, const Sim &sim, const World *world
 
 void load_checkpoint(const std::string &path, const std::function<Sim &(const gp_config &)> &create,
                      OutputPosition &position) {
-    std::vector<unsigned char> bytes = read_file(path);
-    Session session;
-    CheckpointReader file(path, std::move(bytes));
-    try {
-        read_all(file, create, position);
-    } catch (const Error &error) {
-        // What a host would be told about an argument is here about the file.
-        if (error.status() == GP_E_ARGUMENT || error.status() == GP_E_STATE || error.status() == GP_E_DIVERGED)
-            file.refuse(error.what());
-        throw;
+    Loaded loaded;
+    {
+        std::vector<unsigned char> bytes = read_file(path);
+        Session session;
+        CheckpointReader file(path, std::move(bytes));
+        try {
+            loaded = read_all(file, create, position);
+        } catch (const Error &error) {
+            // What a host would be told about an argument is here about the file.
+            if (error.status() == GP_E_ARGUMENT || error.status() == GP_E_STATE || error.status() == GP_E_DIVERGED)
+                file.refuse(error.what());
+            throw;
+        }
     }
+    loaded.sim->resume(std::move(loaded.world), loaded.progress); // without the file, 125 bytes a particle and more
 }
 
 #endif

@@ -1,4 +1,5 @@
-// What a checkpoint consists of, each part described once for writing and reading. Only checkpoint.cpp includes this.
+// What a checkpoint consists of, each part described once for writing and reading. Only checkpoint.cpp and
+// checkpoint_scene.cpp include this.
 #pragma once
 
 #include <string>

@@ -164,7 +164,7 @@ struct OutputFields {
 class WorldRows {
 public:
     WorldRows(const World &world, const OutputFields &fields, bool constant)
-        : bits_(constant ? fields.constant_bits : fields.bits), by_id_(world),
+        : crossing_(world.crossing), bits_(constant ? fields.constant_bits : fields.bits), by_id_(world),
           requests_(row_requests(by_id_.count(), fields.widths(constant))), values_(bits_.size()) {}
     WorldRows(const WorldRows &) = delete;
     WorldRows &operator=(const WorldRows &) = delete;
@@ -182,13 +182,17 @@ public:
     }
 
 private:
-    void take_next() {
+    void take_next() { // a failure in it is not one of writing: the others would go on to the next
+        everywhere(crossing_, [this] { take(); });
+    }
+    void take() {
         const RowRequest &request = requests_[next_++];
         std::vector<double> &values = values_[request.component];
         values.resize(static_cast<std::size_t>(request.count));
         by_id_.read(bits_[request.component], request.first, request.count, values.data());
     }
 
+    Crossing *crossing_;
     std::vector<uint32_t> bits_;
     FieldsById by_id_;
     std::vector<RowRequest> requests_;

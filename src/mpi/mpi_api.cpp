@@ -34,10 +34,16 @@ gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim) {
     return guard([&] {
         require_pointer("sim", sim);
         *sim = nullptr;
-        require_level();
         require_communicator(comm);
-        const gp_config whole = complete(config, default_config(GP_PRESET_DEFAULT), "gp_config");
-        *sim = new gp_sim(whole, std::make_unique<mpi::MpiCrossing>(comm));
+        const auto crossing = mpi::MpiCrossing::between_all_of(comm);
+        std::unique_ptr<gp_sim> made;
+        together(crossing.get(), [&] {
+            require_level();
+            const gp_config whole = complete(config, default_config(GP_PRESET_DEFAULT), "gp_config");
+            made = std::make_unique<gp_sim>(whole, crossing);
+            return GP_OK;
+        });
+        *sim = made.release();
         return GP_OK;
     });
 }
@@ -47,17 +53,21 @@ gp_status gp_load_mpi(const char *path, MPI_Comm comm, gp_sim **sim) {
     return guard([&] {
         require_pointer("sim", sim);
         *sim = nullptr;
-        require_pointer("path", path);
-        require_level();
         require_communicator(comm);
+        const auto crossing = mpi::MpiCrossing::between_all_of(comm);
         std::unique_ptr<gp_sim> loaded;
-        const auto create = [&](const gp_config &config) -> Sim & {
-            loaded = std::make_unique<gp_sim>(config, std::make_unique<mpi::MpiCrossing>(comm));
-            return loaded->sim;
-        };
-        io::OutputPosition left_off;
-        io::load_checkpoint(path, create, left_off);
-        loaded->left_off = std::move(left_off);
+        together(crossing.get(), [&] {
+            require_pointer("path", path);
+            require_level();
+            const auto create = [&](const gp_config &config) -> Sim & {
+                loaded = std::make_unique<gp_sim>(config, crossing);
+                return loaded->sim;
+            };
+            io::OutputPosition left_off;
+            io::load_checkpoint(path, create, left_off);
+            loaded->left_off = std::move(left_off);
+            return GP_OK;
+        });
         *sim = loaded.release();
         return GP_OK;
     });

@@ -15,7 +15,8 @@ void require(int status, const char *what) {
 
 } // namespace
 
-ZoltanCut::ZoltanCut(MPI_Comm comm) : comm_(comm) {
+void ZoltanCut::begin(MPI_Comm comm) {
+    comm_ = comm;
     float version;
     require(Zoltan_Initialize(0, nullptr, &version), "Zoltan_Initialize");
     zoltan_ = Zoltan_Create(comm);
@@ -71,7 +72,10 @@ ZoltanCut::ZoltanCut(MPI_Comm comm) : comm_(comm) {
 }
 
 ZoltanCut::~ZoltanCut() {
-    Zoltan_Destroy(&zoltan_);
+    int finalised = 0;
+    MPI_Finalized(&finalised);
+    if (zoltan_ && !finalised) // else its memory goes with the process
+        Zoltan_Destroy(&zoltan_);
 }
 
 void ZoltanCut::cut(int64_t n, const double *x, const double *y, double work) {

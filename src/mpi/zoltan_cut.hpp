@@ -11,17 +11,18 @@ namespace gp::mpi {
 
 class ZoltanCut {
 public:
-    explicit ZoltanCut(MPI_Comm comm);
+    ZoltanCut() = default;
     ZoltanCut(const ZoltanCut &) = delete;
     ZoltanCut &operator=(const ZoltanCut &) = delete;
     ~ZoltanCut();
 
-    // Collective. work: of the n places here together.
+    void begin(MPI_Comm comm); // collective
+    // Collective; it waits for all, and cannot be told of a failure. work: of the n places here together.
     void cut(int64_t n, const double *x, const double *y, double work);
     int owner(double x, double y) const; // 0 where nothing has been cut
 
 private:
-    MPI_Comm comm_;
+    MPI_Comm comm_ = MPI_COMM_NULL;
     Zoltan_Struct *zoltan_ = nullptr;
     bool cut_ = false;
     // While it cuts.

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/sim.hpp"
 #include "granperi/gp.h"
 
 namespace api {
@@ -77,65 +78,9 @@ inline gp_plate make_right_wall(double x, double height) {
     return make_plate(x, height, x, 0);
 }
 
-// A simulation that ends with its scope.
-class Sim {
-public:
-    explicit Sim(const gp_config &config = make_config()) { EXPECT_EQ(gp_create(&config, &handle), GP_OK); }
-    Sim(const Sim &) = delete;
-    Sim &operator=(const Sim &) = delete;
-    ~Sim() { gp_destroy(handle); }
-    operator gp_sim *() const { return handle; }
-
-    int32_t add(const gp_column &column) { return id_of(gp_add_column(handle, &column, &id_)); }
-    int32_t add(const gp_plate &plate) { return id_of(gp_add_plate(handle, &plate, &id_)); }
-    int32_t add(const gp_material &material) { return id_of(gp_add_material(handle, &material, &id_)); }
-    int32_t add(const std::vector<double> &x, const std::vector<double> &y) {
-        return id_of(
-            gp_add_particles(handle, 0, static_cast<int64_t>(x.size()), x.data(), y.data(), nullptr, nullptr, &id_));
-    }
-
-    gp_state state() const {
-        gp_state state{};
-        state.struct_size = sizeof state;
-        EXPECT_EQ(gp_get_state(handle, &state), GP_OK);
-        return state;
-    }
-    gp_particles view(uint32_t fields) const {
-        gp_particles particles{};
-        particles.struct_size = sizeof particles;
-        EXPECT_EQ(gp_get_particles(handle, fields, &particles), GP_OK);
-        return particles;
-    }
-    uint64_t epoch() const { return view(0).epoch; }
-    int64_t count() const { return view(0).count; }
-    std::vector<double> field(uint32_t bit) const {
-        std::vector<double> values(static_cast<std::size_t>(count()));
-        EXPECT_EQ(gp_copy_field(handle, bit, values.data(), static_cast<int64_t>(values.size())), GP_OK);
-        return values;
-    }
-    gp_load load(int32_t plate) const {
-        gp_load load{};
-        load.struct_size = sizeof load;
-        EXPECT_EQ(gp_get_plate_load(handle, plate, &load), GP_OK);
-        return load;
-    }
-    std::vector<gp_plan_entry> plan() const {
-        int64_t n = 0;
-        EXPECT_EQ(gp_get_plan(handle, 0, nullptr, &n), GP_OK);
-        std::vector<gp_plan_entry> entries(static_cast<std::size_t>(n));
-        EXPECT_EQ(gp_get_plan(handle, n, entries.data(), &n), GP_OK);
-        EXPECT_EQ(n, static_cast<int64_t>(entries.size()));
-        return entries;
-    }
-
-    gp_sim *handle = nullptr;
-
-private:
-    int32_t id_of(gp_status status) {
-        EXPECT_EQ(status, GP_OK) << gp_last_error();
-        return id_;
-    }
-    int32_t id_ = -1;
+// With the config of these tests unless it is another one.
+struct Sim : test::Sim {
+    explicit Sim(const gp_config &config = make_config()) : test::Sim(config) {}
 };
 
 // A column on a floor beside a wall, held by a gate that is lifted at 1 m/s: plate 2.

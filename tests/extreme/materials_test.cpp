@@ -19,7 +19,7 @@ gp_material beads() {
 gp_state deposit(const gp_material &m, gp_config c = config(Collapse::length / resolution), double end = 1,
                  double trembling = 1e-6) {
     Sim sim(c);
-    sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height, sim.material(m));
+    sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height, sim.add(m));
     sim.add(floor_at(0, -0.6, 0.6));
     const gp_state state = run_to_rest(sim, 0.05, end);
     EXPECT_LT(state.kinetic, trembling * Collapse::energy);
@@ -92,7 +92,7 @@ TEST(RateConstant, GoesFromOneLimitOfTheLawToTheOther) {
     for (const bool limit : {false, true}) {
         Sim sim(config(Collapse::length / resolution));
         sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height,
-                   sim.material(limit ? of_friction(m.mu_s) : m));
+                   sim.add(limit ? of_friction(m.mu_s) : m));
         sim.add(floor_at(0, -0.6, 0.6));
         sim.run(0.1);
         x[limit] = sim.field(GP_FIELD_X);
@@ -126,7 +126,7 @@ TEST(Materials, OneOfTenIsAsIfItWereAlone) {
             m.grain_density = k == materials ? 2000 : 1000. * k;
             m.mu_s = k == materials ? 0.4 : 0.1 * k;
             m.mu_2 = 2;
-            last = sim.material(m);
+            last = sim.add(m);
         }
         sim.column(-Collapse::length / 2, 0, Collapse::length, Collapse::height, last);
         sim.add(floor_at(0, -0.6, 0.6));
@@ -144,7 +144,7 @@ enum Pattern { layers, one_light, chequerboard };
 void add_two_densities(Sim &sim, double dl, double ratio, Pattern pattern) {
     gp_material light = beads();
     light.grain_density /= ratio;
-    const int32_t materials[] = {0, sim.material(light)};
+    const int32_t materials[] = {0, sim.add(light)};
     std::vector<double> x[2], y[2];
     for (int j = 0; j < 12; ++j)
         for (int i = 0; i < 10; ++i) {
@@ -212,7 +212,7 @@ TEST(DensityRatio, LeavesStretchedGrainsADensity) {
     Sim sim(c);
     gp_material light = beads();
     light.grain_density /= 40;
-    const int32_t materials[] = {0, sim.material(light)};
+    const int32_t materials[] = {0, sim.add(light)};
     for (const int k : {0, 1})
         ASSERT_EQ(gp_add_particles(sim, materials[k], static_cast<int64_t>(x[k].size()), x[k].data(), y[k].data(),
                                    vx[k].data(), vy[k].data(), nullptr),

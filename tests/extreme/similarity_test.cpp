@@ -50,7 +50,7 @@ Motion collapse(const Change &change, gp_config c = config(spacing)) {
     gp_material m;
     EXPECT_EQ(gp_material_init(&m, sizeof m), GP_OK);
     m.grain_density = change.grain_density;
-    const int32_t beads = sim.material(m);
+    const int32_t beads = sim.add(m);
     sim.column(change.offset - length / 2, change.offset, length, height, beads, change.drift);
     gp_plate base = floor_at(change.offset, change.offset - 0.4, change.offset + 0.4);
     base.vx = change.drift;

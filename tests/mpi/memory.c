@@ -1,5 +1,5 @@
-/* What a state and a frame take of the first process's memory beyond what it holds: mpirun -n 2 memory PARTICLES [FILE] prints the
- * bytes of both. FILE: of the frame. Status 77 where the system does not tell. */
+/* What the first step, a state and a frame take of the first process's memory beyond what it holds: mpirun -n 2 memory PARTICLES
+ * [FILE] prints the bytes of these. FILE: of the frame. Status 77 where the system does not tell. */
 #include <malloc.h>
 #include <math.h>
 #include <stdio.h>
@@ -55,10 +55,13 @@ int main(int argc, char **argv) {
     check(gp_create_mpi(&config, MPI_COMM_WORLD, &sim));
     check(gp_add_column(sim, &column, NULL));
     check(gp_add_plate(sim, &plate, NULL));
-    check(gp_step(sim, 1));
-
     int known = begin() && told("VmRSS:") > 0 && told("VmHWM:") > 0;
     double held = told("VmRSS:");
+    check(gp_step(sim, 1));
+    const double of_start = told("VmHWM:") - held;
+
+    known = known && begin();
+    held = told("VmRSS:");
     gp_state state;
     memset(&state, 0, sizeof state);
     state.struct_size = sizeof state;
@@ -78,7 +81,7 @@ int main(int argc, char **argv) {
         check(gp_output_close(sim));
     }
     if (rank == 0 && known)
-        printf("%.0f %.0f\n", of_state, of_frame);
+        printf("%.0f %.0f %.0f\n", of_start, of_state, of_frame);
     gp_destroy(sim);
     MPI_Finalize();
     return known ? 0 : 77;

@@ -49,7 +49,7 @@ TEST(AnnularCell, HasTheTorqueAndTheYieldRadiusOfTheLaw) {
     beads.mu_2 = cell.law.mu_2;
     beads.i0 = cell.law.i0;
     beads.grain_diameter = cell.law.d;
-    const int32_t material = sim.material(beads);
+    const int32_t material = sim.add(beads);
     const int32_t ring = add_polyline(sim, arc(0, 0, inner, 0, 360, 96), GP_WALL_NO_SLIP,
                                       [](gp_plate &p) { p.omega = omega; }); // counter-clockwise: material outside
     const std::vector<int32_t> around = add_line(sim, arc(0, 0, outer, 0, -360, outer_plates), GP_WALL_NO_SLIP,

@@ -153,7 +153,7 @@ TEST(Collision, KeepsMomentumOfUnequalMaterials) {
     gp_material heavy;
     gp_material_init(&heavy, sizeof heavy);
     heavy.grain_density = 7800;
-    const int32_t steel = sim.material(heavy);
+    const int32_t steel = sim.add(heavy);
     sim.column(0, 0, 0.025, 0.025, 0, 1, 0.1);
     sim.column(0.027, 0.003, 0.025, 0.025, steel, -1, 0);
     const gp_state before = sim.state();

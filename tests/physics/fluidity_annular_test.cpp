@@ -39,7 +39,7 @@ void expect_torque_and_profile(double horizon, double torque_error) {
     ASSERT_EQ(gp_material_init(&beads, sizeof beads), GP_OK);
     beads.grain_diameter = grain;
     beads.nonlocal_amplitude = 0.48;
-    const int32_t material = sim.material(beads);
+    const int32_t material = sim.add(beads);
     const FluidLaw law{beads.mu_s, beads.mu_2, beads.i0, grain, beads.nonlocal_amplitude, beads.grain_density};
     const int32_t ring = add_polyline(sim, arc(0, 0, inner, 0, 360, 48), GP_WALL_NO_SLIP,
                                       [](gp_plate &p) { p.omega = omega; }); // counter-clockwise: material outside

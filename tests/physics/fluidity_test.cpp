@@ -35,7 +35,7 @@ struct Layer {
               c.periodic_x_max = across * c.spacing;
               return c;
           }()) {
-        sim.column(0, 0, width, thickness, sim.material(m));
+        sim.column(0, 0, width, thickness, sim.add(m));
     }
     int32_t floor(int32_t fluidity, double vx = 0) {
         gp_plate p = plate(width, 0, 0, 0);
@@ -209,7 +209,7 @@ TEST(FluidIncline, DoesSoInAThinLayer) {
 TEST(FluidityPlan, NamesStageAndFieldOnlyWhereAMaterialHasThem) {
     const auto active = [](double amplitude) {
         Sim sim(config(0.01));
-        sim.column(0, 0, 0.1, 0.1, sim.material(fluid(amplitude, 0.002)));
+        sim.column(0, 0, 0.1, 0.1, sim.add(fluid(amplitude, 0.002)));
         sim.add(floor_at(0, -1, 1));
         sim.step(3);
         int64_t count = 0;

@@ -20,7 +20,7 @@ struct InclinedColumn {
         gp_material beads;
         gp_material_init(&beads, sizeof beads);
         beads.grain_diameter = 0.0007;
-        const int32_t material = sim.material(beads);
+        const int32_t material = sim.add(beads);
         column = sim.column(0, bed, length, height, material);
         sim.add(floor_at(0, -0.1, 3));
         sim.add(plate(0, 0, 0, 3 * height));

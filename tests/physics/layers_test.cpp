@@ -123,7 +123,7 @@ TEST(Couette, CarriesTheShearOfTheLoadedLid) {
     m.mu_s = law.mu_s;
     m.mu_2 = law.mu_2;
     m.i0 = law.i0;
-    const int32_t id = sim.material(m);
+    const int32_t id = sim.add(m);
     for (int k = 0; k < rows; ++k)
         sim.column(0, k * c.spacing, c.periodic_x_max, c.spacing, id, exact((k + 0.5) * c.spacing));
     const int32_t floor = sim.add(plate(c.periodic_x_max, 0, 0, 0));
@@ -177,7 +177,7 @@ TEST(Period, KeepsMomentumAndDoesNotSeeItsEnds) {
     gp_material heavy;
     gp_material_init(&heavy, sizeof heavy);
     heavy.grain_density = 7800;
-    const int32_t steel = sim.material(heavy);
+    const int32_t steel = sim.add(heavy);
     sim.column(-0.02, 0, 0.04, 0.025, 0, 1, 0.2);
     sim.column(-0.02, 0.025, 0.04, 0.025, steel, -1, -0.2);
     const gp_state before = sim.state();
@@ -212,7 +212,7 @@ TEST(Layers, OfTwoMaterialsBeginInBalance) {
     gp_material heavy;
     gp_material_init(&heavy, sizeof heavy);
     heavy.grain_density = 5000;
-    const int32_t dense = sim.material(heavy);
+    const int32_t dense = sim.add(heavy);
     sim.column(0, 0, 0.04, 0.025, dense);
     sim.column(0, 0.025, 0.04, 0.025);
     sim.add(plate(0.04, 0, 0, 0));

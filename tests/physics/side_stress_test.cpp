@@ -23,7 +23,7 @@ struct Box {
         gp_column_init(&column, sizeof column);
         column.width = width;
         column.height = height;
-        column.material = sim.material(beads_with(k0));
+        column.material = sim.add(beads_with(k0));
         column.initial_pressure = initial;
         EXPECT_EQ(gp_add_column(sim, &column, nullptr), GP_OK);
         base = sim.add(floor_at(0, 0, width, friction));
@@ -83,7 +83,7 @@ TEST(SideStressOfASilo, IsJanssens) {
     for (const double k0 : {0.5, 0.64, 0.8})
         for (const double mu : {0.2, 0.3}) {
             Sim sim(config(width / 12));
-            sim.column(0, 0, width, height, sim.material(beads_with(k0)));
+            sim.column(0, 0, width, height, sim.add(beads_with(k0)));
             gp_plate floor = floor_at(0, 0, width, GP_WALL_FREE_SLIP);
             floor.vy = -0.01;
             const int32_t base = sim.add(floor);

@@ -247,7 +247,7 @@ struct PartlyAsleep {
         gp_material beads;
         gp_material_init(&beads, sizeof beads);
         beads.nonlocal_amplitude = amplitude;
-        sim.column(0, 0, width, height, sim.material(beads));
+        sim.column(0, 0, width, height, sim.add(beads));
         floor = sim.add(floor_at(0, 0, width));
         gp_plate loaded = plate(0, height, width, height);
         loaded.normal_pressure = 150;

@@ -22,7 +22,7 @@ struct Slide {
               c.delta = 1e-3;
               return c;
           }()) {
-        sim.column(0, 0, width, rows * spacing, sim.material(m), speed);
+        sim.column(0, 0, width, rows * spacing, sim.add(m), speed);
         gp_plate p = plate(width, 0, 0, 0, friction);
         p.wall_mu = wall_mu;
         floor = sim.add(p);

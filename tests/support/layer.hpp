@@ -58,7 +58,7 @@ struct Layer {
         gp_material beads;
         gp_material_init(&beads, sizeof beads);
         beads.grain_diameter = d;
-        const int32_t id = sim.material(beads);
+        const int32_t id = sim.add(beads);
         for (int k = 0; k < rows; ++k)
             sim.column(0, k * spacing, width, spacing, id, velocity((k + 0.5) * spacing));
     }

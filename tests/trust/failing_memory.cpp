@@ -16,7 +16,7 @@ using namespace test::memory;
 
 namespace {
 
-bool inside_new = false;
+thread_local bool inside_new = false; // MPI has threads of its own
 
 bool fails() {
     if (!armed || !(everywhere || inside_new))

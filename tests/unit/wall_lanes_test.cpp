@@ -90,20 +90,22 @@ TEST(WallLanes, AddUpToPlainSums) {
     stages::wall_velocity(world);
     stages::gradient(world);
     const double moment = world.constants.lattice.second_moment, inverse = 1 / world.constants.horizon;
-    std::vector<int32_t> all(p.count);
-    for (int64_t j = 0; j < p.count; ++j)
-        all[j] = static_cast<int32_t>(j);
     int compared = 0;
     for (const Contact &contact : walls.contacts) {
         const int64_t i = contact.particle;
         Moments m;
-        add_moments(m, all.data(), p.count, p.x[i], p.y[i], 0, 0, p.x.data(), p.y.data(), p.vx.data(), p.vy.data(),
-                    inverse);
+        const auto add = [&](double x, double y) {
+            const double dx = x - p.x[i], dy = y - p.y[i], w = weight(std::hypot(dx, dy), inverse);
+            m.kxx += w * dx * dx;
+            m.kxy += w * dx * dy;
+            m.kyy += w * dy * dy;
+        };
+        for (int64_t j = 0; j < p.count; ++j)
+            add(p.x[j], p.y[j]);
         const double carried = carried_share(m.kxx + m.kyy, moment);
         for (int32_t c = walls.contact_start[i]; c < walls.contact_start[i + 1]; ++c)
-            add_moments(m, walls.ghost_of_contact.data() + walls.contacts[c].begin,
-                        walls.contacts[c].end - walls.contacts[c].begin, p.x[i], p.y[i], 0, 0, walls.ghost_x.data(),
-                        walls.ghost_y.data(), walls.ghost_vx.data(), walls.ghost_vy.data(), inverse);
+            for (int64_t k = walls.contacts[c].begin; k < walls.contacts[c].end; ++k)
+                add(walls.ghost_x[walls.ghost_of_contact[k]], walls.ghost_y[walls.ghost_of_contact[k]]);
         const SymmetricTensor k = inverse_shape(m, moment);
         const double tolerance = 1e-12 / moment;
         EXPECT_NEAR(p.gxx[i], carried * k.xx, tolerance);

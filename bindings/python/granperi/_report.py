@@ -8,10 +8,10 @@ import warnings
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Mapping, Sequence
 
-from ._errors import ArgumentError, ArgumentTypeError, near_match, number, whole
+from ._errors import ArgumentError, number, whole
 from ._report_ladder import ROUNDED, Cost, Sides, given
-from ._report_result import ASKED, Report
-from ._report_runs import QUANTITIES, REST, Measured, OutOfTime, Quantity, checked, measure, standard
+from ._report_result import ASKED, Report, names_of
+from ._report_runs import Measured, OutOfTime, Quantity, checked, measure, standard
 from ._scene import Scene, scene_of
 
 LEVELS = 4
@@ -22,7 +22,7 @@ class _Bar:
     """Over the seconds of the budget, where tqdm is and it is wanted."""
 
     def __init__(self, budget: float, shown: bool):
-        self._begin, self._bar = time.monotonic(), None
+        self._begin, self._bar, self._seen = time.monotonic(), None, -math.inf
         if shown:
             try:
                 from tqdm.auto import tqdm
@@ -32,8 +32,16 @@ class _Bar:
 
     def show(self, text: str) -> None:
         if self._bar is not None:
-            self._bar.set_description_str(text)
-            self._bar.n = min(time.monotonic() - self._begin, self._bar.total)
+            self._bar.set_description_str(text, refresh=False)
+            self._seen = -math.inf
+            self.move()
+
+    def move(self) -> None:
+        """Twice a second at most: runs call it between their steps."""
+        now = time.monotonic()
+        if self._bar is not None and now - self._seen >= 0.5:
+            self._seen = now
+            self._bar.n = min(now - self._begin, self._bar.total)
             self._bar.refresh()
 
     def close(self) -> None:
@@ -79,6 +87,7 @@ class _Study:
                             break
                         self.bar.show(f"spacing {spacing:.3g} m, run {seed}")
                         busy[pool.submit(self._measured, spacing, seed)] = spacing
+                    self.bar.move()
                     for done in wait(busy, timeout=1, return_when=FIRST_COMPLETED).done:
                         busy.pop(done)
                         self._keep(done.result)
@@ -89,9 +98,15 @@ class _Study:
     def _measured(self, spacing: float, seed: int) -> tuple[Measured, list]:
         begin = time.monotonic()
         try:
-            return measure(self.scene, spacing, seed, self.end, self.quantities, lambda: self.deadline)
+            return measure(self.scene, spacing, seed, self.end, self.quantities, self._looked)
         finally:
             self.waited += time.monotonic() - begin
+
+    def _looked(self) -> float:
+        """The deadline, for a run that asks between its steps."""
+        if self.workers == 1:
+            self.bar.move()
+        return self.deadline
 
     def _keep(self, result: Any) -> bool:
         try:
@@ -192,7 +207,7 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
     if not (2 <= seeds <= 100 and 1 <= workers <= 64):
         raise ArgumentError(f"seeds = {seeds}, workers = {workers}: expected 2 to 100 and 1 to 64")
     own = checked({} if quantities is None else quantities)
-    wanted = _names(of, own)
+    wanted = ASKED if of is None else names_of(of, tuple(own))
     if scene.fixed_spacing:
         raise ArgumentError(f"{scene.name}: has particles given one by one, whose spacing is theirs: expected a scene that can "
                             "be built at any spacing")
@@ -208,6 +223,7 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
             jobs = [(h, seed) for seed in range(1, seeds + 1) for h in ladder]
             done = study.done()
             study.run([job for job in jobs if job not in done])
+            bar.show(f"{len(study.runs)} runs")
     finally:
         bar.close()
     levels = {h: [run for run in study.runs if run.spacing == h] for h in ladder}
@@ -218,18 +234,6 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
                             "machine may be busy")
     return Report(scene, end, accuracy, budget, time.monotonic() - study.begin, study.runs, enough, start, study.plan, own,
                   tuple(dict.fromkeys(str(one.message) for one in caught)), wanted)
-
-
-def _names(of: Sequence[str] | None, own: Mapping[str, Quantity]) -> tuple[str, ...]:
-    """The quantities that an accuracy is asked of."""
-    if of is None:
-        return ASKED
-    if isinstance(of, str) or not isinstance(of, Sequence) or not of:
-        raise ArgumentTypeError(f"of = {of!r:.80}: expected a list of names of quantities")
-    for name in of:
-        if name not in (valid := [*QUANTITIES, REST, *own]):
-            raise ArgumentError(f"of: {name!r:.80}: {near_match(str(name), valid)}")
-    return tuple(of)
 
 
 def _start(scene: Scene, spacing: float, own: Mapping[str, Quantity]) -> dict[str, float]:

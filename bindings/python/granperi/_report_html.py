@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import html
+import math
 import os
 import re
 from typing import Any, Sequence
@@ -17,11 +18,12 @@ STYLE = """
 .granperi-report h1 { font-size: 1.5rem; margin: 1.2rem 0 .2rem } .granperi-report h2 { font-size: 1.15rem; margin: 2rem 0 .4rem }
 .granperi-report p { max-width: 46rem } .granperi-report svg { width: 100%; height: auto; max-width: 900px }
 .granperi-report .answer { background: #eef4fa; border-left: 4px solid #0072b2; padding: .7rem 1rem; font-size: 1.1rem }
-.granperi-report .no { background: #fdf1ea; border-color: #d55e00 } .granperi-report .wide { overflow-x: auto }
+.granperi-report .no { background: #fdf1ea; border-color: #d55e00 }
+.granperi-report .wide { overflow-x: auto } .granperi-report .wide svg { min-width: 600px }
 .granperi-report table { border-collapse: collapse; margin: .5rem 0 } .granperi-report td, .granperi-report th
 { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap }
 .granperi-report td:first-child, .granperi-report th:first-child { text-align: left }
-.granperi-report .words td:last-child, .granperi-report .words th:last-child { text-align: left; white-space: normal }
+.granperi-report .words td:last-child, .granperi-report .words th:last-child { text-align: left; white-space: normal; min-width: 11rem }
 .granperi-report tr.forecast { color: #777 }
 .granperi-report .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(400px, 100%), 1fr)); gap: .5rem }
 """
@@ -71,7 +73,12 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]], classes: Sequence
     for k, row in enumerate(rows):
         kind = f' class="{classes[k]}"' if classes and classes[k] else ""
         lines.append(f"<tr{kind}>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>")
-    return f'<div class="wide"><table{" class=words" if words else ""}>' + "\n".join(lines) + "</table></div>"
+    return _wide(f'<table{" class=words" if words else ""}>' + "\n".join(lines) + "</table>")
+
+
+def _wide(content: str) -> str:
+    """What scrolls where it has no room, in place of the page, and stays large enough to be read."""
+    return f'<div class="wide">{content}</div>'
 
 
 def _error_picture(report: Report) -> str:
@@ -81,9 +88,12 @@ def _error_picture(report: Report) -> str:
     curves = {name: [(row.cpu_seconds, 100 * row.errors[name] / report.scale[name]) for row in report.rows] for name in names}
     x = [at for curve in curves.values() for at, _ in curve]
     y = [error for curve in curves.values() for _, error in curve]
+    asked = 100 * report.accuracy
+    if min(y) / 10 < asked < 10 * max(y):  # how far it is to what was asked for
+        y.append(asked)
     picture = Picture((min(x) / 1.3, max(x) * 1.3), (max(min(y), 1e-3) / 1.3, max(y) * 1.3), "CPU s of one run",
                       "error of one run, %", log_x=True, log_y=True, right=190)
-    picture.level(100 * report.accuracy, f"{100 * report.accuracy:g} % asked for")
+    picture.level(asked, f"{asked:g} % asked for")
     for colour, name in zip(COLOURS, names):
         run = [point for point, row in zip(curves[name], report.rows) if row.runs]
         forecast = [point for point, row in zip(curves[name], report.rows) if not row.runs]
@@ -95,7 +105,7 @@ def _error_picture(report: Report) -> str:
     if chosen.runs == 1:
         picture.star(min(max(chosen.cpu_seconds, picture.x[0]), picture.x[1]), 100 * max(chosen.errors.values()))
     picture.legend([(colour, _name(name)) for colour, name in zip(COLOURS, names)])
-    return picture.svg("error of one run against CPU time") + (
+    return _wide(picture.svg("error of one run against CPU time")) + (
         "<p>Full: run. Hollow: forecast." + (" Star: recommended." if chosen.runs == 1 else "") + "</p>")
 
 
@@ -107,13 +117,20 @@ def _rows(report: Report) -> str:
     return _table(head, rows, ["" if row.runs else "forecast" for row in report.rows])
 
 
+def _rounded(value: float, error: float) -> str:
+    """As many places as the error has, of which two digits are shown."""
+    if not (error > 0 and math.isfinite(value)):
+        return f"{value:.5g}"
+    return f"{value:.{min(max(1 - math.floor(math.log10(error)), 0), 9)}f}"
+
+
 def _verdict_row(report: Report, name: str) -> list[str]:
     verdict, order = report._judged(name)
     if name not in report.convergence:
         return [_name(name), "–", "–", "–", verdict]
     one = report.convergence[name]
     unit = QUANTITIES[name][0] if name in QUANTITIES else "s" if name == REST else ""
-    limit = f"{one.limit:.5g} ± {one.limit_error:.2g} {unit}".rstrip()
+    limit = f"{_rounded(one.limit, one.limit_error)} ± {one.limit_error:.2g} {unit}".rstrip()
     return [_name(name), limit, f"{one.levels[-1].scatter:.2g}", order or "–", verdict]
 
 

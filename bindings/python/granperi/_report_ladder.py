@@ -92,7 +92,9 @@ class Cost:
         return bulk + surface / math.sqrt(self.particles(spacing))
 
     def seconds(self, spacing: float) -> float:
-        """CPU s of one run to the end."""
+        """CPU s of one run to the end. spacing: m, above 0."""
+        if not number("spacing", spacing) > 0:
+            raise ArgumentError(f"spacing = {spacing:g}: expected a number above 0, in m")
         return self.per_step(spacing) * self.particles(spacing) * self.steps(spacing)
 
 

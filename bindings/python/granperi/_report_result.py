@@ -7,7 +7,7 @@ import math
 import os
 from typing import Any, Mapping, Sequence
 
-from ._errors import ArgumentError, FileError, StateError, near_match, number
+from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match, number, whole
 from ._library import lib, text_of
 from ._objects import Config
 from ._report_ladder import Cost, Sides
@@ -69,6 +69,8 @@ class Recommendation:
         """
         if not self.runs:
             raise StateError(f"nothing is recommended: {self.reason}")
+        if not isinstance(config, Config):
+            raise ArgumentTypeError(f"config = {config!r:.80}: expected a Config, such as scene.config")
         return config.replace(spacing=self.spacing)
 
     def __str__(self) -> str:
@@ -133,13 +135,16 @@ class Report:
             A fraction (0.05 is 5 %); NaN where there is nothing to relate it to.
 
         Raises:
-            ArgumentError: a quantity that the report does not have.
+            ArgumentError: a quantity that the report does not have, a spacing or number of runs outside its range.
 
         Example:
             print(report.error("width_90", report.spacings[0]))
         """
         if name not in self.convergence:
             raise ArgumentError(f"name = {name!r}: {near_match(name, list(self.convergence))}")
+        spacing, runs = number("spacing", spacing), whole("runs", runs)
+        if not (0 < spacing < math.inf and runs >= 1):
+            raise ArgumentError(f"spacing = {spacing:g}, runs = {runs}: expected a finite number above 0 (m), and a whole one >= 1")
         scale = self.scale[name]
         return self.convergence[name].error(spacing, runs) / scale if scale > 0 else math.nan
 
@@ -163,7 +168,7 @@ class Report:
             A Recommendation; its runs are 0 if nothing reaches the accuracy, and reason says why.
 
         Raises:
-            ArgumentError: an accuracy outside its range.
+            ArgumentError: an accuracy outside its range, a quantity that does not exist.
 
         Example:
             print(report.recommend(0.2, of=["peak_height"]))
@@ -171,7 +176,7 @@ class Report:
         accuracy = number("accuracy", accuracy)
         if not 0 < accuracy < 1:
             raise ArgumentError(f"accuracy = {accuracy:g}: expected a number above 0 and below 1")
-        of = tuple(of)
+        of = names_of(of, self.own)
 
         def none(reason: str) -> Recommendation:
             return Recommendation(accuracy, of, math.nan, 0, math.nan, {}, reason)
@@ -180,7 +185,7 @@ class Report:
             if name not in self.convergence:
                 return none(f"{name} is {NOT_REACHED}: run longer, to a later end")
             if self.convergence[name].verdict == DIVERGES:
-                return none(f"{name} does not converge: no spacing is fine enough")
+                return none(f"{name} does not converge at the spacings that were run: only finer ones could show that it does")
         best: Recommendation | None = None
         for spacing in self._candidates():
             each = self.cost.seconds(spacing)
@@ -344,6 +349,16 @@ class Report:
             os.replace(part, path)
         except OSError as error:
             raise FileError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def names_of(of: Any, own: Sequence[str]) -> tuple[str, ...]:
+    """The quantities that an accuracy is asked of; own: those of the host."""
+    if isinstance(of, str) or not isinstance(of, Sequence) or not of:
+        raise ArgumentTypeError(f"of = {of!r:.80}: expected a list of names of quantities")
+    for name in of:
+        if name not in (valid := [*QUANTITIES, REST, *own]):
+            raise ArgumentError(f"of: {name!r:.80}: {near_match(str(name), valid)}")
+    return tuple(of)
 
 
 def _plain(value: Any) -> Any:

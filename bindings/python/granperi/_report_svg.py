@@ -111,16 +111,18 @@ class Picture:
                 + "".join(self.parts) + "</svg>")
 
 
-def bars(entries: Sequence[tuple[str, float]], unit: str, label: str, width: int = 900) -> str:
-    """Shares of a whole as bars beneath each other."""
+def bars(entries: Sequence[tuple[str, float]], unit: str, label: str, width: int = 560) -> str:
+    """Shares of a whole as bars beneath each other; narrow, so that they can be read on a telephone."""
     most = max((value for _, value in entries), default=1.0) or 1.0
     height = 30 * len(entries) + 8
+    left = 20 + 10 * max((len(name) for name, _ in entries), default=0)  # of the bars
     parts = []
     for k, (name, value) in enumerate(entries):
         y = 30 * k + 22
-        long = 430 * value / most
-        parts += [f'<text x="300" y="{y}" text-anchor="end">{html.escape(name)}</text>',
-                  f'<rect x="310" y="{y - 16}" width="{long:.1f}" height="20" fill="{COLOURS[0]}"/>',
-                  f'<text x="{318 + long:.1f}" y="{y}">{value:.1f} {html.escape(unit)}</text>']
+        long = (width - left - 90) * value / most
+        parts += [f'<text x="{left - 10}" y="{y}" text-anchor="end">{html.escape(name)}</text>',
+                  f'<rect x="{left}" y="{y - 16}" width="{long:.1f}" height="20" fill="{COLOURS[0]}"/>',
+                  f'<text x="{left + 8 + long:.1f}" y="{y}">{value:.1f} {html.escape(unit)}</text>']
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" aria-label="{html.escape(label)}" '
-            f'font-family="system-ui, sans-serif" font-size="{FONT}" fill="#222">' + "".join(parts) + "</svg>")
+            f'style="max-width: {width}px" font-family="system-ui, sans-serif" font-size="{FONT}" fill="#222">' + "".join(parts)
+            + "</svg>")

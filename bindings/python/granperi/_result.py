@@ -405,9 +405,6 @@ def _what_else(file: "h5py.File") -> str:
     return "an H5MD file of another program" if "h5md" in file else "another HDF5 file"
 
 
-Source = "Simulation | Result | Snapshot | str | os.PathLike[str]"
-
-
 def snapshot(source: Any, time: float | None = None) -> Snapshot:
     """One look at a simulation (now), a result or its path (at this time [s], or the last frame), or a snapshot."""
     if isinstance(source, (str, os.PathLike)):

@@ -1,10 +1,8 @@
 """Scenes: what a simulation is made of, from a TOML file or by keyword, to build at any spacing."""
 from __future__ import annotations
 
-import dataclasses
 import math
 import os
-import re
 import tomllib
 from typing import Any, Callable
 
@@ -13,31 +11,13 @@ from ._errors import ArgumentError, ArgumentTypeError, Error, near_match, number
 from ._objects import Config
 from ._probe import Probe
 from ._record import CHECKPOINT_SECONDS, record_scene
+from ._scene_file import Lines, Part, SceneError
 from ._scene_tables import BUILDERS, CONFIG, LISTS, RUN, Run, make_config, make_run
 from ._simulation import Simulation
 from ._state import History
 from ._tables import require_free, write_text
 
-
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"  # behind a block of text in a checkpoint
-
-
-class SceneError(ArgumentError):
-    """A scene file that cannot be read; the text names file, line and table."""
-
-
-@dataclasses.dataclass
-class _Part:
-    """One table of the file: its values, and where it stands."""
-
-    kind: str
-    values: dict[str, Any]
-    file: str
-    line: str  # ", line N" or nothing
-    title: str
-
-    def where(self, line: str = "") -> str:
-        return f"{self.file}{line or self.line}, {self.title}"
 
 
 class Scene:
@@ -53,7 +33,7 @@ class Scene:
 
     def __init__(self, config: Config | None = None, run: Run | None = None, name: str = "scene"):
         self.config, self.run, self.name = config or Config(), run or Run(), name
-        self._parts: list[_Part] = []
+        self._parts: list[Part] = []
         self._config_line = ""
 
     def add(self, kind: str, **values: Any) -> None:
@@ -73,9 +53,9 @@ class Scene:
             scene.add("floor", x_left=-0.3, x_right=0.4)
         """
         number_of_kind = 1 + sum(part.kind == kind for part in self._parts)
-        self._add(_Part(kind, values, self.name, "", f"{kind} {number_of_kind}"), lambda key: "")
+        self._add(Part(kind, values, self.name, "", f"{kind} {number_of_kind}"), lambda key: "")
 
-    def _add(self, part: _Part, line_of: Callable[[str], str]) -> None:
+    def _add(self, part: Part, line_of: Callable[[str], str]) -> None:
         if part.kind not in LISTS:
             raise SceneError(f"{part.where()}: there is no table '{part.kind}': {near_match(part.kind, LISTS)}")
         for key in part.values:
@@ -137,7 +117,7 @@ class Scene:
             tables = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
             raise SceneError(f"{name}: is not TOML: {error}") from None
-        lines = _Lines(text)
+        lines = Lines(text)
         scene = cls(name=name)
         known = ["config", "run", *LISTS]
         for kind, content in tables.items():
@@ -153,14 +133,14 @@ class Scene:
             for k, values in enumerate(several):
                 if isinstance(values.get("file"), str):
                     values = {**values, "file": os.path.join(os.path.dirname(name), values["file"])}
-                part = _Part(kind, values, name, lines.where(kind, k), f"[[{kind}]] number {k + 1}")
+                part = Part(kind, values, name, lines.where(kind, k), f"[[{kind}]] number {k + 1}")
                 scene._add(part, lambda key: lines.where(kind, k, key))
         # Columns and plates are numbered as they stand in the file, of whatever kind.
         scene._parts.sort(key=lambda part: int(part.line.rpartition(" ")[2] or 0))
         scene._config_line = lines.where("config")
         return scene
 
-    def _keywords(self, tables: dict, lines: "_Lines", kind: str, valid: list[str], make: Callable) -> Any:
+    def _keywords(self, tables: dict, lines: Lines, kind: str, valid: list[str], make: Callable) -> Any:
         values = tables.get(kind, {})
         if not isinstance(values, dict):
             raise SceneError(f"{self.name}{lines.where(kind)}: expected a table [{kind}]")
@@ -250,7 +230,7 @@ class Scene:
         return [self._side(part, key) for part in self._parts if part.kind == "column" for key in ("width", "height")]
 
     @staticmethod
-    def _side(column: _Part, key: str) -> float:
+    def _side(column: Part, key: str) -> float:
         try:
             side = number(f"gp_column.{key}", column.values.get(key, 0.0))
             if not (math.isfinite(side) and side > 0):
@@ -261,7 +241,7 @@ class Scene:
 
     # ---------------------------------------------------------------------------------------------- probes, runs
 
-    def _probes(self) -> list[_Part]:
+    def _probes(self) -> list[Part]:
         return [part for part in self._parts if part.kind == "probe"]
 
     def has_probes(self) -> bool:
@@ -440,7 +420,7 @@ class Scene:
         else:
             raise ArgumentError(f"key {key!r:.80}: {_why_no_key(names)}")
 
-    def _one(self, key: str, names: list[str]) -> _Part:
+    def _one(self, key: str, names: list[str]) -> Part:
         """The table that a key means."""
         several = [part for part in self._parts if part.kind == names[0]]
         if len(names) == 2 and len(several) == 1:
@@ -456,30 +436,6 @@ class Scene:
     def __repr__(self) -> str:
         counts = {kind: sum(part.kind == kind for part in self._parts) for kind in LISTS}
         return f"<granperi.Scene {self.name}: {', '.join(f'{n} {kind}' for kind, n in counts.items() if n)}>"
-
-
-class _Lines:
-    """Where tables and keys stand in the text, for messages; tomllib does not tell."""
-
-    def __init__(self, text: str):
-        self._at: dict[tuple[str, int, str], int] = {}
-        count: dict[str, int] = {}
-        table, k = "", 0
-        for line, content in enumerate(text.splitlines(), 1):
-            if header := re.match(r"\s*\[\[?\s*[\"']?([\w-]+)[\"']?\s*\]", content):
-                table = header.group(1)
-                k = count.get(table, 0)
-                count[table] = k + 1
-                self._at[table, k, ""] = line
-            elif key := re.match(r"\s*[\"']?([\w-]+)[\"']?\s*[=.]", content):
-                self._at.setdefault((table, k, key.group(1)), line)
-                if not table:
-                    self._at.setdefault((key.group(1), 0, ""), line)
-
-    def where(self, table: str, k: int = 0, key: str = "") -> str:
-        """", line N" of the key or the table; nothing if it cannot be told."""
-        line = self._at.get((table, k, key), self._at.get((table, k, "")))
-        return f", line {line}" if line else ""
 
 
 def _why_no_key(names: list[str]) -> str:

@@ -51,6 +51,8 @@ class Settings:
             config = granperi.settings("draft", 0.05).config(granperi.Config(sound_speed=10))
             print(config.spacing, config.sound_speed)
         """
+        if config is not None and not isinstance(config, Config):
+            raise ArgumentTypeError(f"config = {config!r:.80}: expected a Config, such as scene.config")
         return (config or Config()).replace(**self.values)
 
     def __str__(self) -> str:
@@ -79,9 +81,9 @@ class _Level:
 
 # aims: written by bench/performance/aims.py
 _LEVELS = {
-    "draft": _Level(10, 4.0, 1, 0.10, 0.064, 0.077, 0.08, 0.13),
-    "standard": _Level(15, 4.0, 1, 0.05, 0.040, 0.033, 0.23, 0.40),
-    "fine": _Level(25, 3.0, 1, 0.02, 0.016, 0.016, 1.02, 1.65),
+    "draft": _Level(10, 4.0, 1, 0.10, 0.067, 0.082, 0.08, 0.13),
+    "standard": _Level(15, 4.0, 1, 0.05, 0.039, 0.043, 0.23, 0.40),
+    "fine": _Level(25, 3.0, 1, 0.02, 0.020, 0.015, 1.02, 1.65),
 }
 # /aims
 
@@ -120,6 +122,8 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float", processes:
         raise ArgumentTypeError(f"name = {name!r:.80}: expected one of {', '.join(_LEVELS)}")
     if name not in _LEVELS:
         raise ArgumentError(f"name = {name!r:.80}: {near_match(name, _LEVELS)}")
+    if isinstance(of, Config) or of is None:
+        raise ArgumentTypeError(f"of = {of!r:.80}: expected a Scene, the path of a scene file, or a length in m")
     length = scene_of(of).smallest_side() if isinstance(of, (Scene, str, os.PathLike)) else number("of", of)
     if not (math.isfinite(length) and length > 0):
         raise ArgumentError(f"of = {length:g}: expected a finite length above 0 m, or a scene")

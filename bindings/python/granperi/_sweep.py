@@ -121,6 +121,10 @@ def prepare(scene: Any, parameters: Any, directory: "str | os.PathLike[str]" = "
     """
     scene, directory = scene_of(scene), os.fspath(directory)
     points = points_of_parameters(parameters)
+    if strange := [key for key in points[0] if not isinstance(key, str)]:
+        raise ArgumentTypeError(f"key {strange[0]!r:.80}: expected a text such as 'config.spacing'")
+    if os.path.exists(directory) and not os.path.isdir(directory):
+        raise FileError(f"{directory}: is a file: expected a directory for the scenes and results of the sweep")
     if own := [key for key in points[0] if key.rpartition(".")[2] == "output"]:
         raise ArgumentError(f"key {own[0]!r}: a sweep names the files of its points itself")
     names = [_name_of(point) for point in points]

@@ -1,4 +1,5 @@
 """What people get wrong, each with the text that they read: it names what is wrong, and what to do."""
+import functools
 import os
 import re
 import threading
@@ -87,6 +88,15 @@ def scene():
 
 def swept(parameters, **more):
     return granperi.sweep("scene.toml", parameters, "sweep", **more)
+
+
+def reported(**more):
+    return granperi.report("scene.toml", **more)
+
+
+@functools.cache
+def small_report():
+    return reported(budget=600, spacings=[0.025, 0.0166, 0.0125], seeds=2)
 
 
 MASKED = np.ma.masked_array([0.1, 0.2], [False, True])
@@ -179,6 +189,47 @@ MISTAKES = [
     (lambda: swept({"config.spacing": 0.01}), "parameters['config.spacing'] = 0.01: expected a list of values"),
     (lambda: swept({"config.spacing": [0.01, -1]}), "gp_config.spacing = -1: expected a number from"),
     (lambda: swept({}), "parameters: there is no point: expected at least one key with one value"),
+    (lambda: swept({3: [1]}), "key 3: expected a text such as 'config.spacing'"),
+    (lambda: swept({"config.spacing": [0.01, 0.01]}), "parameters: two points are the same"),
+    (lambda: swept([{"config.spacing": 0.01}, {"run.end": 1}]), "the points have different keys: expected the same in each"),
+    (lambda: swept({"wall.x": [0.1]}), "key 'wall.x': scene.toml has 0 [[wall]]; add one to the scene first"),
+    (lambda: swept({"config.spacing": MASKED}), "gp_config.spacing: has masked values"),
+    (lambda: swept({"config.spacing": [0.01]}, workers=0), "workers = 0: expected a whole number >= 1"),
+    (lambda: swept({"run.output": ["a.h5"]}), "key 'run.output': a sweep names the files of its points itself"),
+    (lambda: granperi.sweep("scene.toml", {"run.end": [1]}, "result.h5"), "result.h5: is a file: expected a directory for the scenes"),
+    (lambda: block().add_polygon([[0, 0], [np.nan, 0], [1, 1]]), "points: expected three or more finite corners, got 3, of which some"),
+    (lambda: block().add_polygon([0, 1, 2]), "points: expected numbers of the shape (n, 2), one x and one y per point"),
+    (lambda: block().add_polygon([[0, 0], [1e-3, 0], [0, 1e-3]]), "the polygon holds no particle at the spacing 0.01 m"),
+    (lambda: block().add_mask([[1, 1]], 0, 0, -1), "x_min = 0, y_min = 0, width = -1: expected finite lengths in m, width above 0"),
+    (lambda: block().add_mask([[1, 1]], 0, 0, 80000), "more than 50000000 places at the spacing 0.01 m: expected a larger spacing"),
+    (lambda: block().add_mask("scene.toml", 0, 0, 1), "'scene.toml': cannot be read as an image: "),
+    (lambda: block().add_probe([0.1, 0.2]), "points: expected numbers of the shape (n, 2), one x and one y per point, got the shape (2,)"),
+    (lambda: block().add_probe([[np.nan, 0]]), "points: expected finite numbers, x and y in m"),
+    (lambda: block().add_probe([[0, 0]], fields=["presure"]), "field 'presure' does not exist: did you mean 'pressure'?"),
+    (lambda: block().add_probe([[0, 0]], every=-1), "every = -1: expected a finite number above 0, in s"),
+    (lambda: block().add_probe(plates=[0.5]), "plates = [0.5]: expected numbers of plates"),
+    # reports and settings
+    (lambda: granperi.report(block()), "expected a Scene or the path of a scene file"),
+    (lambda: granperi.report("nothing.toml"), "nothing.toml: cannot be read: No such file or directory"),
+    (lambda: reported(budget=1e-3, end=1.0), "budget = 0.001 s: "),
+    (lambda: reported(budget="60"), "budget = '60': expected a number"),
+    (lambda: reported(accuracy=5), "accuracy = 5: expected a number above 0 and below 1"),  # in %
+    (lambda: reported(seeds=1), "seeds = 1, workers = 1: expected 2 to 100 and 1 to 64"),
+    (lambda: reported(spacings=[0.01, 0.005]), "expected at least three different numbers above 0 m"),
+    (lambda: reported(spacings=[10, 5, 2.5]), "gp_column.width = 0.1: expected at least half of the spacing 2.5"),  # in mm
+    (lambda: reported(of="width_90"), "of = 'width_90': expected a list of names of quantities"),
+    (lambda: reported(of=["width"]), "of: 'width': did you mean 'width_98'? Valid: peak_height, "),
+    (lambda: reported(quantities=[len]), "expected a dict of names and functions of the simulation"),
+    (lambda: small_report().error("peak", 0.01), "name = 'peak': did you mean 'peak_height'?"),
+    (lambda: small_report().error("peak_height", 0), "spacing = 0, runs = 1: expected a finite number above 0 (m), and a whole one"),
+    (lambda: small_report().recommend(0.1, ["peak"]), "of: 'peak': did you mean 'peak_height'?"),
+    (lambda: small_report().recommend(0.1, "peak_height"), "of = 'peak_height': expected a list of names of quantities"),
+    (lambda: small_report().cost.seconds(-1), "spacing = -1: expected a number above 0, in m"),
+    (lambda: small_report().write("report.pdf"), "path = 'report.pdf': expected a name that ends in .html or .json"),
+    (lambda: granperi.settings("draft", 0), "of = 0: expected a finite length above 0 m, or a scene"),
+    (lambda: granperi.settings("draft", Config()), "expected a Scene, the path of a scene file, or a length in m"),
+    (lambda: granperi.settings("draft", Scene()), "has no column whose sides could be resolved: expected a scene of columns, or a length"),
+    (lambda: granperi.settings("draft", 0.05).config(scene()), "expected a Config, such as scene.config"),
 ]
 
 
@@ -247,6 +298,12 @@ def test_a_doubtful_scene_is_warned_of(scene, text):
     (("sweep", "scene.toml", "--set", "config.spacing"), 2, "expected KEY=VALUE,VALUE"),
     (("sweep", "--collect"), 1, "is no directory of a sweep"),
     (("sweep", "scene.toml", "--set", "run.end=1", "--set", "run.end=2"), 2, "--set: a key stands twice"),
+    (("sweep", "scene.toml", "--set", "config.spacing=0.01", "--directory", "result.h5"), 1, "result.h5: is a file"),
+    (("report", "scene.toml", "--accuracy", "5"), 2, "accuracy = 5: expected a number above 0 and below 1"),
+    (("report", "scene.toml", "--of", "peak"), 2, "of: 'peak': did you mean 'peak_height'?"),
+    (("report", "scene.toml", "--output", "scene.toml"), 2, "--output scene.toml: expected a name that ends in .html or .json"),
+    (("report", "scene.toml", "--spacings", "0.01", "0.02"), 2, "expected at least three different numbers above 0 m"),
+    (("report", "nothing.toml"), 2, "nothing.toml: cannot be read"),
 ])
 def test_mistakes_on_the_command_line(directory, capsys, arguments, status, text):
     from granperi import __main__

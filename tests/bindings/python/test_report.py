@@ -77,6 +77,19 @@ def test_the_budget_is_kept_and_used(monkeypatch, scene, budget, pace):
     assert across == pytest.approx([round(n) for n in across])  # the columns' smallest side is a whole number of each
 
 
+def test_the_bar_moves_while_a_run_goes_on(monkeypatch, scene):
+    """And not only between runs, of which there are few: here each asks for its deadline once, at its end."""
+    pytest.importorskip("tqdm")
+    machine, shown = Machine(monkeypatch), []
+    monkeypatch.setattr(_report._Bar, "close", lambda bar: shown.append((bar._bar.n, bar._bar.total, bar._bar.desc)))
+    monkeypatch.setattr(_report._Bar, "move", lambda bar, move=_report._Bar.move: (move(bar), shown.append(bar._bar.n)))
+    begin = machine.now
+    found = granperi.report(scene, budget=20, progress=True)
+    *during, (spent, whole, said) = shown
+    assert during == sorted(during) and len(set(during)) >= len(found.runs) - 3  # the shortest take less than half a second
+    assert spent == pytest.approx(machine.now - begin) and whole == 20 and said.startswith(f"{len(found.runs)} runs")
+
+
 def test_a_budget_that_is_too_small_says_what_it_takes(monkeypatch, scene):
     machine = Machine(monkeypatch)
     with pytest.raises(granperi.ArgumentError, match=r"budget = 0.1 s: two runs at each of three spacings do not fit in: expected "
@@ -160,6 +173,10 @@ def test_the_page_needs_nothing_beside_it(made, tmp_path):
     assert {address for address in re.findall(r"https?://[^\"'<> ]+", page)} == {"http://www.w3.org/2000/svg"}
     assert page.count("<svg") == 7 and "no amplitude" in page and "within 3 %" in page
     assert made._repr_html_() in page
+    limit = made.convergence["peak_height"]
+    shown = re.search(r"<td>peak</td><td>([\d.]+) ± ([\d.]+) m</td>", page)  # the last digit of both is in the same place
+    assert len(shown[1].partition(".")[2]) == len(shown[2].partition(".")[2])
+    assert float(shown[1]) == pytest.approx(limit.limit, abs=0.06 * limit.limit_error)
     with pytest.raises(granperi.ArgumentError, match=r"expected a name that ends in .html or .json"):
         made.write(tmp_path / "report.pdf")
     with pytest.raises(granperi.FileError, match="report.html: exists: expected another name, or overwrite=True"):

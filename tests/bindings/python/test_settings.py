@@ -81,7 +81,7 @@ def test_other_parameters_stay_what_they_are(tmp_path):
     ("draft", -0.1, "of = -0.1: expected a finite length"),
     ("draft", math.nan, "of = nan: expected a finite length"),
     ("draft", math.inf, "of = inf: expected a finite length"),
-    ("draft", None, "of = None: expected a number"),
+    ("draft", None, "of = None: expected a Scene, the path of a scene file, or a length in m"),
     ("draft", "nothing.toml", "nothing.toml: cannot be read"),
     ("draft", granperi.Scene(name="empty"), "empty: has no column whose sides could be resolved"),
 ])
