@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Scene files at random: files of the corpus with bytes, lines, keys and values changed, read as `python -m granperi run`
+"""Scene files at random: files of the corpus with bytes, lines, keys and values changed, read as `python3 -m granperi run`
 does. Each is a scene or a granperi.SceneError (or another granperi.Error) with a text; no other exception. Deterministic.
 
     scene_fuzz.py CORPUS [--seconds S] [--seed N]      ends with the count, and how many lines of _scene*.py were reached

@@ -1,4 +1,4 @@
-"""python -m granperi: run a scene file, draw and compare results, ask what the library has."""
+"""python3 -m granperi: run a scene file, draw and compare results, ask what the library has."""
 from __future__ import annotations
 
 import argparse
@@ -15,7 +15,7 @@ COMMANDS = (_cli_run, _cli_report, _cli_sweep, _cli_plot, _cli_animate, _cli_his
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m granperi", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="python3 -m granperi", description=__doc__.splitlines()[0])
     commands = Commands(parser)
     for command in COMMANDS:
         command.add(commands)

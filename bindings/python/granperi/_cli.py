@@ -1,4 +1,4 @@
-"""What the commands of `python -m granperi` share: each is a module _cli_NAME with a function add(commands)."""
+"""What the commands of `python3 -m granperi` share: each is a module _cli_NAME with a function add(commands)."""
 from __future__ import annotations
 
 import argparse

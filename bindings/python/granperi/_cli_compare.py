@@ -1,4 +1,4 @@
-"""python -m granperi compare: what two result files differ in."""
+"""python3 -m granperi compare: what two result files differ in."""
 from __future__ import annotations
 
 import argparse

@@ -1,4 +1,4 @@
-"""python -m granperi history: the states at the frames of a result file, as CSV."""
+"""python3 -m granperi history: the states at the frames of a result file, as CSV."""
 from __future__ import annotations
 
 import argparse

@@ -1,4 +1,4 @@
-"""python -m granperi info: of the library, of a scene file or of a result file."""
+"""python3 -m granperi info: of the library, of a scene file or of a result file."""
 from __future__ import annotations
 
 import argparse

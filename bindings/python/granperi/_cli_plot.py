@@ -1,4 +1,4 @@
-"""python -m granperi plot: a picture of a result file."""
+"""python3 -m granperi plot: a picture of a result file."""
 from __future__ import annotations
 
 import argparse

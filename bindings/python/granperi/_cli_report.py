@@ -1,4 +1,4 @@
-"""python -m granperi report: error against run time of a scene file."""
+"""python3 -m granperi report: error against run time of a scene file."""
 from __future__ import annotations
 
 import argparse
@@ -14,8 +14,8 @@ EPILOG = """\
 The runs of one spacing begin with particles 0.01 spacings beside each other's; what they differ by is chance. Errors
 hold in 9 of 10 cases. NAME.html is one page that needs nothing beside it, NAME.json has all numbers.
 
-  python -m granperi report collapse.toml --budget 120 --accuracy 0.03
-  python -m granperi report silo.toml --of peak_height --output silo_report.html
+  python3 -m granperi report collapse.toml --budget 120 --accuracy 0.03
+  python3 -m granperi report silo.toml --of peak_height --output silo_report.html
 """
 
 

@@ -1,4 +1,4 @@
-"""python -m granperi run: a scene file becomes a result file."""
+"""python3 -m granperi run: a scene file becomes a result file."""
 from __future__ import annotations
 
 import argparse

@@ -1,4 +1,4 @@
-"""python -m granperi sweep: a scene with many values, run beside each other."""
+"""python3 -m granperi sweep: a scene with many values, run beside each other."""
 from __future__ import annotations
 
 import argparse
@@ -14,14 +14,14 @@ from ._progress import has_tqdm
 HELP = """\
 All combinations of the values are run. Keys: config.NAME, run.NAME, TABLE.NAME, or TABLE.NUMBER.NAME where there are several.
 
-  python -m granperi sweep collapse.toml --set config.spacing=0.005,0.0025 --set column.height=0.05,0.1
+  python3 -m granperi sweep collapse.toml --set config.spacing=0.005,0.0025 --set column.height=0.05,0.1
 
 The directory then has a scene file, a result, a checkpoint and a log per point, and the table sweep.csv. Say the same once
 more to go on with what was interrupted. To run the points by other means, GNU parallel or a batch system:
 
-  python -m granperi sweep collapse.toml --set config.spacing=0.005,0.0025 --prepare
+  python3 -m granperi sweep collapse.toml --set config.spacing=0.005,0.0025 --prepare
   (cd sweep; parallel python3 -m granperi run {} --resume :::: points.txt)
-  python -m granperi sweep --collect
+  python3 -m granperi sweep --collect
 """
 
 

@@ -21,7 +21,7 @@ def run(scene: Scene, ranks: int, output: str) -> None:
         raise ArgumentError(f"fields = {scene.run.fields!r}: with --mpi expected \"default\"")
     program, mpiexec = shutil.which("granperi-mpi"), shutil.which("mpiexec")
     if program is None or mpiexec is None:
-        missing = "granperi-mpi (build granperi with -DGRANPERI_MPI=ON)" if program is None else "mpiexec"
+        missing = "granperi-mpi (build and install granperi with -DGRANPERI_MPI=ON)" if program is None else "mpiexec (openmpi-bin)"
         raise UnsupportedError(f"--mpi needs the program {missing}, which is not in PATH")
     with tempfile.TemporaryDirectory() as folder:
         start = os.path.join(folder, "start.h5")

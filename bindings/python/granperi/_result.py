@@ -214,7 +214,7 @@ class Result:
             what = _what_else(self._file)
             self._file.close()
             raise FileError(f"{self.path}: is no result file of granperi but {what}: expected a file that sim.record(), "
-                            f"sim.output(), gp_output_open or python -m granperi run has written ({error})") from None
+                            f"sim.output(), gp_output_open or python3 -m granperi run has written ({error})") from None
 
     @functools.cached_property
     def _plates(self) -> list[Plate]:
@@ -394,7 +394,7 @@ def _why_unreadable(path: str, error: OSError) -> str:
         return f"cannot be read: {why.strerror}"
     if begin != b"\x89HDF\r\n\x1a\n":
         return "is no HDF5 file" + (": ParaView opens this one; here name the .h5 beside it" if path.endswith(".xdmf") else
-                                    ": expected a result file (.h5), not a scene; python -m granperi run makes one of it"
+                                    ": expected a result file (.h5), not a scene; python3 -m granperi run makes one of it"
                                     if path.endswith(".toml") else ": expected a result file (.h5)")
     return f"cannot be read as an HDF5 file, it may be cut off: {error}"
 

@@ -179,7 +179,7 @@ def collect(directory: "str | os.PathLike[str]" = "sweep") -> Sweep:
             points = json.load(file)["points"]
     except (OSError, ValueError, KeyError) as error:
         raise FileError(f"{directory}: is no directory of a sweep, its sweep.json cannot be read: {error}; granperi.sweep() or "
-                        "python -m granperi sweep makes one") from None
+                        "python3 -m granperi sweep makes one") from None
     rows = []
     for point in points:
         row = {"point": point["point"], **point["values"], "status": "complete"}

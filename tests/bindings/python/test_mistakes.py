@@ -146,7 +146,7 @@ MISTAKES = [
     (lambda: Result("h5md.h5"), "h5md.h5: is no result file of granperi but an H5MD file of another program"),
     (lambda: Result("result.gpc"), "is no result file of granperi but a checkpoint, from which granperi.load() goes on"),
     (lambda: Result("result.xdmf"), "result.xdmf: is no HDF5 file: ParaView opens this one; here name the .h5 beside it"),
-    (lambda: Result("scene.toml"), "scene.toml: is no HDF5 file: expected a result file (.h5), not a scene; python -m granperi run makes"),
+    (lambda: Result("scene.toml"), "scene.toml: is no HDF5 file: expected a result file (.h5), not a scene; python3 -m granperi run makes"),
     (lambda: Result("interrupted.part"), "is a directory: expected a result file in it, of a run that is going on or was interrupted"),
     (lambda: Result("no_frames.h5")[-1], "no_frames.h5 has no frames: the run that wrote it has ended before the first one; run it anew"),
     (lambda: Result("result.h5")[99], "frame 99: result.h5 has 2 frames"),

@@ -183,5 +183,5 @@ def test_mistakes_on_the_command_line(python, scene_file, tmp_path, arguments, s
 def test_help_of_every_command(python):
     for command in ([], ["run"], ["sweep"], ["plot"], ["animate"], ["history"], ["compare"], ["info"]):
         answer = python("-m", "granperi", *command, "--help")
-        assert answer.returncode == 0 and "usage: python -m granperi" in answer.stdout
+        assert answer.returncode == 0 and "usage: python3 -m granperi" in answer.stdout
     assert "[[column]]" in python("-m", "granperi", "run", "--help").stdout
