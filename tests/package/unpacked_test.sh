@@ -25,6 +25,7 @@ said=$(cd "$work" && LD_LIBRARY_PATH=$prefix/$libdir PYTHONPATH=$prefix/lib/pyth
 import granperi
 with granperi.Simulation(spacing=0.0025) as sim:
     sim.add_column(width=0.025, height=0.025)
+    sim.add_plate(granperi.Plate.floor(-0.1, 0.1))
     sim.step(3)
     print(granperi.__file__, sim.state.step)") || fail "Python"
 echo "Python: $said"
