@@ -25,6 +25,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 
 import aims_rows  # noqa: E402
+from converged import converged  # noqa: E402
 from headlines import headline  # noqa: E402
 
 ROOT = HERE.parents[1]
@@ -99,7 +100,7 @@ def figure(data: dict[str, Any], path: Path) -> None:
     best, ours, theirs, star = best_of(aims_rows.curves(data["rows"])), "#0072B2", "0.35", "#D55E00"
     axes.plot([cpu for _, cpu, _ in best], [100 * error for *_, error in best], color=ours, marker="o", ms=7, lw=3,
               label="granperi, best of horizons 3 and 4")
-    peak, runout = aims_rows.converged("a125")
+    peak, runout = converged("a125")
     for name, style in ((SAME, "-"), ("tuned", "--")):
         points = data["mpm"][name]
         errors = [100 * max(abs(r / runout - 1), abs(p / peak - 1) if p is not None else 0) for _, _, p, r in points]

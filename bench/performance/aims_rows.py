@@ -6,12 +6,10 @@ above 0.
 """
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
-from headlines import MARK, headline
-
-PERFORMANCE = Path(__file__).resolve().parents[2] / "docs" / "performance.md"
+from converged import converged
+from headlines import headline
 
 Row = dict[str, Any]
 
@@ -29,12 +27,6 @@ WHAT = ("peak", "runout")
 REPEATED = {(4, 16): ("width_16", ("cpu", "peak")), (4, 24): ("width_24", ("cpu", "peak", "one")),
             (4, 32): ("width_32", ("cpu", "peak", "one", "run_out")), (4, 40): ("width_40", ("cpu", "peak")),
             (3, 32): ("horizon_3", ("peak", "run_out"))}
-
-
-def converged(scene: str) -> tuple[float, float]:
-    """Peak y/L and run-out of the finest runs, which docs/performance.md has."""
-    told = {mark["name"]: mark["text"] for mark in MARK.finditer(PERFORMANCE.read_text(encoding="utf-8")) if mark["kind"] == "="}
-    return tuple(float(told[f"performance.converged.{scene}_{what}"]) for what in ("peak", "bulk"))
 
 
 def measure() -> list[Row]:

@@ -24,7 +24,7 @@ import granperi
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
-import aims_rows  # noqa: E402
+from converged import converged  # noqa: E402
 
 END, LOOK = 1.0, 0.05  # s
 
@@ -85,7 +85,7 @@ def row(name: str, resolution: int, horizon: float, runs: list[Run]) -> str:
     scene = SCENES[name]
     cells = [f"{horizon:g}", str(resolution), f"{resolution * min(1, scene.height / scene.length):.0f}",
              f"{np.median([r.cpu for r in runs]):.2f}", f"{np.median([r.cpu_to_rest for r in runs]):.2f}"]
-    for what, reference in zip(("peak", "runout"), aims_rows.converged(name)):
+    for what, reference in zip(("peak", "runout"), converged(name)):
         bias, spread, one = errors([getattr(r, what) for r in runs], reference)
         cells += [f"{100 * bias:+.1f} ± {100 * spread:.1f} %", f"{100 * one:.1f} %"]
     return "| " + " | ".join(cells) + " |"
