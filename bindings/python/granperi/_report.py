@@ -194,8 +194,8 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
            of: Sequence[str] | None = None, workers: int = 1, progress: bool = False) -> Report:
     """Error against run time of your own scene: the error and cost of each spacing, and which one is enough.
 
-    Runs the scene at three or four spacings, several times each, and as long as the accuracy is not reached at any of them, or
-    something of which it is asked does not converge, at finer ones, or more often, within a budget. In the runs of one spacing the particles begin
+    Runs the scene at three or four spacings, several times each, within a budget; and at finer ones, or more often, as long as the
+    accuracy is not reached, or something of which it is asked does not converge. In the runs of one spacing the particles begin
     0.01 spacings apart (or by the scene's own jitter): the differences are chance. From the means follow the observed order and
     the limit of zero spacing, and from both the error of one run, which holds in 9 of 10 cases (docs/report.md). The report
     says what does not converge, and why it ended (Report.ended).

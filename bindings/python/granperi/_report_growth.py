@@ -2,9 +2,11 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
+from collections import Counter
 from typing import Callable, Collection, Sequence
+
+import numpy as np
 
 from ._report_ladder import Sides
 from ._report_result import MOST_RUNS, Report
@@ -40,7 +42,7 @@ class Growth:
             if not found.scale[name] > 0:
                 return f"{name} tends to 0, to which no error can be relative"
         if chosen.runs and chosen.spacing >= 0.999 * found.spacings[-1]:
-            return "the accuracy is reached, at spacings that were run"
+            return "the accuracy is reached at a spacing no finer than what was run"
         return ""
 
     def next(self, found: Report, done: Collection[tuple[float, int]], room: float, used: float) -> Next:
@@ -51,27 +53,16 @@ class Growth:
         """
         if over := self.over(found):
             return Next([], over)
-        now = {name: found.convergence[name] for name in found.recommendation.of}
-        diverges = any(one.verdict == DIVERGES for one in now.values())
+        diverges = any(found.convergence[name].verdict == DIVERGES for name in found.recommendation.of)
         finer, more = self._finer(found, done, room), self._more(found, done, room)
         worth = {}
         if finer:
-            worth["finer"] = math.inf if diverges else self._gain(found, now, finer[0][0]) / self.seconds(finer)
-        if more and not diverges:
-            new = {name: Convergence(_longer(found._values(name), more)) for name in now}
-            gain = self._gain(found, new, found.spacings[-1])
-            if gain > LITTLE:
-                worth["more"] = gain / self.seconds(more)
+            worth["finer"] = math.inf if diverges else _gain(found, finer) / self.seconds(finer)
+        if more and not diverges and (gain := _gain(found, more)) > LITTLE:
+            worth["more"] = gain / self.seconds(more)
         if worth:
             return Next(finer if max(worth, key=worth.__getitem__) == "finer" else more)
         return Next([], self._no_room(found, done, used) + ("; more runs of these spacings would change little" if more else ""))
-
-    def _gain(self, found: Report, new: dict[str, Convergence], spacing: float) -> float:
-        """Logarithm of how many times smaller the worst stated error would be, that of the mean of a few runs."""
-        def worst(of: dict[str, Convergence], at: float) -> float:
-            return max(one.error(at, MOST_RUNS) / found.scale[name] for name, one in of.items())
-
-        return math.log(worst({name: found.convergence[name] for name in new}, found.spacings[-1]) / worst(new, spacing))
 
     def _finer(self, found: Report, done: Collection[tuple[float, int]], room: float) -> Jobs:
         """Rather fewer runs than none at all, rather a smaller step than none."""
@@ -94,9 +85,9 @@ class Growth:
     def _no_room(self, found: Report, done: Collection[tuple[float, int]], used: float) -> str:
         jobs = {h: _missing([h], 2, done) for h in self.sides.finer(found.spacings[-1])}
         spacing = min(jobs, key=lambda h: self.seconds(jobs[h]))
-        takes = self.seconds(jobs[spacing])
-        return (f"a finer spacing needs more than what is left: two runs at {spacing:.3g} m take some {two_digits(takes)} s, for which "
-                f"a budget of {two_digits(1.2 * (used + takes))} s has room")
+        whole = self.seconds(_missing([*found.spacings, spacing], self.seeds, done))  # the coarser ones would be complete, too
+        return (f"a finer spacing needs more than what is left: two runs at {spacing:.3g} m take some "
+                f"{two_digits(self.seconds(jobs[spacing]))} s, for which a budget of {two_digits(1.2 * (used + whole))} s has room")
 
 
 def _missing(spacings: Sequence[float], runs: int, done: Collection[tuple[float, int]]) -> Jobs:
@@ -104,10 +95,23 @@ def _missing(spacings: Sequence[float], runs: int, done: Collection[tuple[float,
     return [(h, seed) for seed in range(1, runs + 1) for h in spacings if (h, seed) not in done]
 
 
-def _longer(values: dict[float, list[float]], jobs: Jobs) -> dict[float, list[float]]:
-    """As many more values as there would be runs, which scatter as those do that are there."""
-    return {h: list(itertools.islice(itertools.cycle(some), len(some) + sum(spacing == h for spacing, _ in jobs)))
-            for h, some in values.items()}
+def _gain(found: Report, jobs: Jobs) -> float:
+    """Logarithm of how many times smaller the worst stated error is to be expected after these runs, that of the mean of a few."""
+    def worst(of: dict[str, Convergence]) -> float:
+        return max(one.error(one.levels[-1].spacing, MOST_RUNS) / found.scale[name] for name, one in of.items())
+
+    now = {name: found.convergence[name] for name in found.recommendation.of}
+    return math.log(worst(now) / worst({name: Convergence(_imagined(one, found._values(name), jobs)) for name, one in now.items()}))
+
+
+def _imagined(one: Convergence, values: dict[float, list[float]], jobs: Jobs) -> dict[float, list[float]]:
+    """With the runs that are to come: about where the mean of that spacing most likely is, scattered as those of the nearest one."""
+    with_them = dict(values)
+    for spacing, count in Counter(h for h, _ in jobs).items():
+        near = np.array(values[min(values, key=lambda h: abs(math.log(h / spacing)))])
+        scattered = near[np.arange(count) % len(near)]
+        with_them[spacing] = values.get(spacing, []) + list(scattered - scattered.mean() + one.limit + one.bias(spacing))
+    return with_them
 
 
 def two_digits(value: float) -> str:
