@@ -280,7 +280,7 @@ def _grown(study: _Study, growth: Growth, found: Callable[[], Report], named: bo
         study.run(step.jobs)
         if len(study.runs) == before:
             why = step.why or f"the runs at {step.jobs[0][0]:.3g} m were not done in time"
-            one.ended = f"Ended after {two_digits(one.seconds)} of {study.budget:g} s: {why}."
+            one.ended = f"Ended after {two_digits(study.budget - study.left())} of {study.budget:g} s: {why}."
             return one
 
 

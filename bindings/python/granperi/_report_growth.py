@@ -86,7 +86,7 @@ class Growth:
         jobs = {h: _missing([h], 2, done) for h in self.sides.finer(found.spacings[-1])}
         spacing = min(jobs, key=lambda h: self.seconds(jobs[h]))
         whole = self.seconds(_missing([*found.spacings, spacing], self.seeds, done))  # the coarser ones would be complete, too
-        return (f"a finer spacing needs more than what is left: two runs at {spacing:.3g} m take some "
+        return (f"a finer spacing is not sure to fit into what is left: two runs at {spacing:.3g} m take some "
                 f"{two_digits(self.seconds(jobs[spacing]))} s, for which a budget of {two_digits(1.2 * (used + whole))} s has room")
 
 

@@ -93,7 +93,7 @@ def test_finer_spacings_follow_until_the_accuracy_is_reached(monkeypatch, scene,
     if "the accuracy is reached" in found.ended:
         assert chosen.runs and chosen.spacing >= 0.999 * found.spacings[-1]
     else:
-        assert 0.5 * budget < used and "a finer spacing needs more than what is left" in found.ended
+        assert 0.5 * budget < used and "a finer spacing is not sure to fit into what is left" in found.ended
         assert not chosen.runs or "extrapolated" in chosen.reason
     assert found.spacings[-1] < 0.0025 or found.error("width_90", found.spacings[-1], 16) <= accuracy
     assert found.ended in str(found) and found.ended in found.html()
