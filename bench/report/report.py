@@ -124,7 +124,8 @@ def seeds(values: coverage.Values, draws: int) -> str:
 
 
 def growing(values: coverage.Values, draws: int) -> tuple[str, float, float, str]:
-    """The table, the least and largest share that hold, and shares that hold of the first scenes and of the later ones if only the finest four spacings counted."""
+    """The table, the least and largest share that hold, and shares that hold of the first scenes and of the later ones if only the finest
+    four spacings counted."""
     lines, held = [], []
     for accuracy in (0.1, 0.05, 0.02):
         cells = [share(accuracy)]
@@ -272,9 +273,10 @@ holds, how often it reaches the accuracy, and how often the true error is below 
 
 {growing_table}
 
-So {headline('report.grown.least', f'{100 * grown_least:.0f}')} to {headline('report.grown.most', share(grown_most))} hold. By the finest four spacings alone {four_held} would hold with 5 %: the coarse ones tell of a trend that chance hides in the
-others. Six and more spacings, and the runs that a report adds where chance is most of the error, have no truth in the pool to be
-compared with.
+So {headline('report.grown.least', f'{100 * grown_least:.0f}')} to {headline('report.grown.most', share(grown_most))} hold.
+
+By the finest four spacings alone {four_held} would hold with 5 %: the coarse ones tell of a trend that chance hides in the others. Six and
+more spacings, and the runs that a report adds where chance is most of the error, have no truth in the pool to be compared with.
 
 ## Cost
 
