@@ -26,6 +26,8 @@ LADDERS = {
     "low": [(4, 6, 8), (4, 6, 8, 12), (6, 8, 12), (6, 8, 12, 16)],
     "ramp": [(8, 12, 16), (8, 12, 16, 20), (12, 16, 24), (12, 16, 20, 24)],
 }
+GROWING = {"a125": (8, 16, 24, 32, 40), "a5": (6, 8, 10, 12, 16), "hopper": (4, 5, 6, 8, 12), "one_side": (10, 20, 30, 40, 50),
+           "colliding": (2, 3, 4, 5, 6), "low": (4, 6, 8, 12, 16), "ramp": (8, 12, 16, 20, 24)}
 LATER = ("one_side", "colliding", "low", "ramp")  # run once bounds and shares had been chosen by the others
 TRUTH = {"a125": (64, 96), "a5": (32, 48), "hopper": (20, 24), "one_side": (60, 80), "colliding": (8, 10),
          "low": (24, 32), "ramp": (40, 48)}
@@ -98,6 +100,24 @@ def draw_all(values: Values, draws: int, later: bool = False) -> list[Drawn]:
     """later: of the scenes that had no part in the choices, else of the others."""
     rng = np.random.default_rng(1)
     return [draw(values, *case, rng) for case in cases() if (case[0] in LATER) == later for _ in range(draws)]
+
+
+def grow(values: Values, draws: int, accuracy: float, later: bool, kept: int = 9) -> list[tuple[float, float]]:
+    """True and stated error of the mean where a report ends that takes a finer spacing as long as what it states is above an accuracy.
+    kept: spacings that it goes by, the finest ones."""
+    rng, found = np.random.default_rng(1), []
+    for scene, ladder in GROWING.items():
+        for quantity in QUANTITIES[scene] if (scene in LATER) == later else ():
+            of, right = values[scene, quantity], truth(values, scene, quantity)
+            for _ in range(draws):
+                sample = {n: rng.permutation(of[n])[:min(SEEDS, len(of[n]) - 1)] for n in ladder}
+                for count in range(3, len(ladder) + 1):
+                    seen, n = ladder[max(0, count - kept):count], ladder[count - 1]
+                    stated = statistics.Convergence({1 / k: list(sample[k]) for k in seen}).error(1 / n, len(sample[n])) / abs(right)
+                    if stated <= accuracy:
+                        break
+                found.append((abs(float(np.mean(sample[n])) / right - 1), stated))
+    return found
 
 
 def held(drawn: Iterable[Drawn], what: str) -> tuple[float, float, float]:

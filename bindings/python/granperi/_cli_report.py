@@ -23,13 +23,13 @@ def add(commands: Any) -> None:
     """commands.add(name, function, help, ...) makes the parser of a command."""
     parser = commands.add("report", _report, HELP, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", help="scene file (TOML)")
-    parser.add_argument("--budget", type=float, default=60.0, help="seconds that it may take [60]")
+    parser.add_argument("--budget", type=float, default=60.0, help="seconds that it may take, used up to the accuracy [60]")
     parser.add_argument("--accuracy", type=float, default=0.05, help="relative error that is asked for [0.05]")
     parser.add_argument("--of", nargs="+", metavar="NAME",
                         help="what it is asked of: peak_height, width_50, width_90, width_98, rest_time, x_q01 ... x_q99 "
                              "[peak_height width_90]")
     parser.add_argument("--end", type=float, help="end of the runs, s [that of the scene]")
-    parser.add_argument("--spacings", type=float, nargs="+", metavar="M", help="m, at least three [by the budget]")
+    parser.add_argument("--spacings", type=float, nargs="+", metavar="M", help="m, at least three [by budget and accuracy]")
     parser.add_argument("--seeds", type=int, default=4, help="runs of each spacing [4]")
     parser.add_argument("--workers", type=int, default=1, help="runs beside each other [1]")
     parser.add_argument("--output", nargs="+", metavar="FILE", help=".html or .json [SCENE_report.html SCENE_report.json]")

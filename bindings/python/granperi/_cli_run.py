@@ -7,10 +7,12 @@ import sys
 
 from . import _mpi
 from ._cli import Commands, saved_when_terminated
-from ._errors import ArgumentError
+from ._errors import ArgumentError, Error
 from ._progress import has_tqdm
+from ._objects import Config
 from ._scene import Scene
 from ._scene_tables import make_run
+from ._simulation import Simulation
 from ._tables import require_free
 
 
@@ -61,16 +63,25 @@ def _output(options: argparse.Namespace, scene: Scene) -> str:
     return "" if output == "none" else output
 
 
+def _replace(scene: Scene, name: str, value: "float | None") -> None:
+    """What an option says in place of the scene file, which would be blamed for it."""
+    if value is None:
+        return
+    try:
+        Simulation(Config(**{name: value})).close()
+    except Error as error:
+        raise ArgumentError(str(error).replace(f"gp_config.{name} =", f"--{name}")) from None
+    scene.config = scene.config.replace(**{name: value})
+
+
 def _run(options: argparse.Namespace) -> None:
     scene = Scene.read(options.scene)
     if options.end is not None:
         scene.run.end = options.end
     if options.until is not None:
         scene.run.until = options.until
-    if options.spacing is not None:
-        scene.config = scene.config.replace(spacing=options.spacing)
-    if options.threads is not None:
-        scene.config = scene.config.replace(threads=options.threads)
+    for name in ("spacing", "threads"):
+        _replace(scene, name, getattr(options, name))
     make_run(vars(scene.run))  # the check of what the options have changed
     output = scene.run.output = _output(options, scene)
     progress = options.progress if options.progress is not None else sys.stderr.isatty() and has_tqdm()

@@ -1,14 +1,16 @@
 """Error against run time, of one's own scene."""
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import time
 import warnings
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from typing import Any, Mapping, Sequence
+from typing import Any, Callable, Iterator, Mapping, Sequence
 
 from ._errors import ArgumentError, number, whole
+from ._report_growth import Growth, Next, two_digits
 from ._report_ladder import ROUNDED, Cost, Sides, given
 from ._report_result import ASKED, Report, names_of
 from ._report_runs import Measured, OutOfTime, Quantity, checked, measure, standard
@@ -59,12 +61,24 @@ class _Study:
         self.runs: list[Measured] = []
         self.waited = 0.0  # s of wall-clock time inside the runs
         self.plan: list[Any] = []
+        self.warned: dict[str, None] = {}  # what the library has said, each once
+
+    @contextlib.contextmanager
+    def listening(self) -> Iterator[None]:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            yield
+        self.warned |= dict.fromkeys(str(one.message) for one in caught)
 
     def left(self) -> float:
         return self.deadline - time.monotonic()
 
     def run(self, jobs: Sequence[tuple[float, int]]) -> None:
         """Pairs of spacing and seed, in this order, as far as the time is enough."""
+        with self.listening():
+            self._run(jobs)
+
+    def _run(self, jobs: Sequence[tuple[float, int]]) -> None:
         if self.workers == 1:
             for spacing, seed in jobs:
                 if not self._fits(spacing):
@@ -125,6 +139,22 @@ class _Study:
         """Wall-clock seconds of a run: CPU time, and as much more as the machine has taken so far."""
         return Cost(self.runs).seconds(spacing) * self.pace()
 
+    def seconds_of(self, jobs: Sequence[tuple[float, int]]) -> float:
+        """Wall-clock seconds of several, so many at a time."""
+        busy = [0.0] * self.workers
+        for spacing, _ in jobs:
+            busy[busy.index(min(busy))] += self.seconds(spacing)
+        return max(busy)
+
+    def room(self) -> float:
+        """Seconds that may still be planned with."""
+        return KEPT_BACK * self.left()
+
+    def enough(self) -> list[float]:
+        """The spacings with two runs at least."""
+        every = [run.spacing for run in self.runs]
+        return [h for h in set(every) if every.count(h) >= 2]
+
     def pace(self) -> float:
         spent = sum(run.cpu_seconds for run in self.runs)
         return max(1.0, self.waited / spent) if spent > 0 else 1.0
@@ -136,7 +166,7 @@ class _Study:
 def _choose(study: _Study, sides: Sides, seeds: int) -> list[float]:
     """The finest ladder that the budget has room for, with two runs of each spacing at least; else the error says what it
     takes."""
-    room = KEPT_BACK * study.left() * study.workers
+    room = study.room() * study.workers
     best: tuple[float, list[float]] | None = None
     least = math.inf
     for runs in range(seeds, 1, -1):  # rather fewer runs than none at all
@@ -164,20 +194,21 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
            of: Sequence[str] | None = None, workers: int = 1, progress: bool = False) -> Report:
     """Error against run time of your own scene: the error and cost of each spacing, and which one is enough.
 
-    Runs the scene at three or four spacings, several times each, within a budget. In the runs of one spacing the particles begin
+    Runs the scene at three or four spacings, several times each, within a budget; and at finer ones, or more often, as long as the
+    accuracy is not reached, or something of which it is asked does not converge. In the runs of one spacing the particles begin
     0.01 spacings apart (or by the scene's own jitter): the differences are chance. From the means follow the observed order and
     the limit of zero spacing, and from both the error of one run, which holds in 9 of 10 cases (docs/report.md). The report
-    says what does not converge.
+    says what does not converge, and why it ended (Report.ended).
 
     Args:
         scene: a Scene, or the path of a scene file.
         budget: s of wall-clock time, finite, above 0.
         accuracy: relative error of one run or of the mean of a few, above 0 and below 1, for which Report.recommendation names
-            spacing, number of runs and cost.
+            spacing, number of runs and cost, and up to which the budget is used.
         end: s, of the runs, finite, above 0; not given: that of the scene.
-        spacings: m, at least three; not given: as fine as the budget allows, down to half of the scene's spacing, so that the
-            columns' sides are whole numbers of them as far as possible.
-        seeds: runs of each spacing, 2 to 100.
+        spacings: m, at least three, and no others are run; not given: down to half of the scene's spacing, finer ones as the
+            accuracy needs them, all as the budget allows, so that the columns' sides are whole numbers of them as far as possible.
+        seeds: runs of each spacing, 2 to 100; more of them where chance is most of the error, unless spacings are given.
         quantities: more of them, {"name": function of the Simulation at its end}.
         of: the quantities that are to have the accuracy; not given: peak_height and width_90.
         workers: runs at a time, 1 to 64.
@@ -214,26 +245,43 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
     sides = Sides(scene)
     named = None if spacings is None else given(spacings)
     bar = _Bar(budget, progress)
+    study = _Study(scene, end, budget, own, workers, bar)
     try:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            study = _Study(scene, end, budget, own, workers, bar)
+        with study.listening():
             start = _start(scene, named[-1] if named else scene.config.spacing, own)
-            ladder = _ladder(study, sides, named, seeds)
-            jobs = [(h, seed) for seed in range(1, seeds + 1) for h in ladder]
-            done = study.done()
-            study.run([job for job in jobs if job not in done])
-            bar.show(f"{len(study.runs)} runs")
+        ladder = _ladder(study, sides, named, seeds)
+        jobs = [(h, seed) for seed in range(1, seeds + 1) for h in ladder]
+        done = study.done()
+        study.run([job for job in jobs if job not in done])
+        if len(study.enough()) < 3:
+            raise ArgumentError(f"budget = {budget:g} s: not two runs at each of three spacings were done: expected some "
+                                f"{1.3 * budget - 0.3 * study.left():.2g} s, or {1.3 * 2 * sum(map(study.seconds, ladder)):.2g} s; "
+                                "the machine may be busy")
+
+        def found() -> Report:
+            return Report(scene, end, accuracy, budget, time.monotonic() - study.begin, study.runs, study.enough(), start,
+                          study.plan, own, tuple(study.warned), wanted)
+
+        return _grown(study, Growth(sides, seeds, study.seconds_of), found, named is not None)
     finally:
+        bar.show(f"{len(study.runs)} runs")
         bar.close()
-    levels = {h: [run for run in study.runs if run.spacing == h] for h in ladder}
-    enough = [h for h, runs in levels.items() if len(runs) >= 2]
-    if len(enough) < 3:
-        raise ArgumentError(f"budget = {budget:g} s: not two runs at each of three spacings were done: expected some "
-                            f"{1.3 * budget - 0.3 * study.left():.2g} s, or {1.3 * 2 * sum(map(study.seconds, ladder)):.2g} s; the "
-                            "machine may be busy")
-    return Report(scene, end, accuracy, budget, time.monotonic() - study.begin, study.runs, enough, start, study.plan, own,
-                  tuple(dict.fromkeys(str(one.message) for one in caught)), wanted)
+
+
+def _grown(study: _Study, growth: Growth, found: Callable[[], Report], named: bool) -> Report:
+    """The report, once no more runs are worth their time or fit into what is left of the budget."""
+    while True:
+        one = found()
+        if named:
+            step = Next([], growth.over(one) or "the spacings were given, so no others were run")
+        else:
+            step = growth.next(one, study.done(), study.room(), study.budget - study.left())
+        before = len(study.runs)
+        study.run(step.jobs)
+        if len(study.runs) == before:
+            why = step.why or f"the runs at {step.jobs[0][0]:.3g} m were not done in time"
+            one.ended = f"Ended after {two_digits(study.budget - study.left())} of {study.budget:g} s: {why}."
+            return one
 
 
 def _start(scene: Scene, spacing: float, own: Mapping[str, Quantity]) -> dict[str, float]:

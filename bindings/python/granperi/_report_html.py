@@ -45,7 +45,7 @@ def body(report: Report) -> str:
              f"<p>{len(report.runs)} runs to {report.end:g} s at {len(report.spacings)} spacings, {report.seconds:.3g} s. Stated errors "
              "hold in 9 of 10 cases, chance included.</p>",
              f'<p class="answer{"" if report.recommendation.runs else " no"}">{html.escape(str(report.recommendation))}</p>',
-             *(f"<p>{html.escape(text)}</p>" for text in report.advice()),
+             *(f"<p>{html.escape(text)}</p>" for text in (report.ended, *report.advice()) if text),
              "<h2>What a run errs by, and what it takes</h2>", _error_picture(report), _rows(report),
              "<h2>Does it converge?</h2>", _verdicts(report), '<div class="pair">', *_convergence_pictures(report), "</div>",
              "<p>Small dots: runs. Full dots: their means, with two standard errors. At spacing 0: what they tend to, with its "
@@ -85,9 +85,10 @@ def _error_picture(report: Report) -> str:
     names = _shown(report)[:8]
     if not names:
         return ""
-    curves = {name: [(row.cpu_seconds, 100 * row.errors[name] / report.scale[name]) for row in report.rows] for name in names}
-    x = [at for curve in curves.values() for at, _ in curve]
-    y = [error for curve in curves.values() for _, error in curve]
+    curves = {name: [(row.cpu_seconds, 100 * row.errors[name] / report.scale[name], row.runs) for row in report.rows
+                     if math.isfinite(row.errors[name])] for name in names}
+    x = [row.cpu_seconds for row in report.rows]
+    y = [error for curve in curves.values() for _, error, _ in curve]
     asked = 100 * report.accuracy
     if min(y) / 10 < asked < 10 * max(y):  # how far it is to what was asked for
         y.append(asked)
@@ -95,8 +96,8 @@ def _error_picture(report: Report) -> str:
                       "error of one run, %", log_x=True, log_y=True, right=190)
     picture.level(asked, f"{asked:g} % asked for")
     for colour, name in zip(COLOURS, names):
-        run = [point for point, row in zip(curves[name], report.rows) if row.runs]
-        forecast = [point for point, row in zip(curves[name], report.rows) if not row.runs]
+        run = [(at, error) for at, error, runs in curves[name] if runs]
+        forecast = [(at, error) for at, error, runs in curves[name] if not runs]
         picture.line(run, colour)
         picture.line([run[-1], *forecast], colour, "4 5", 1.8)
         picture.points(run, colour)
@@ -113,7 +114,7 @@ def _rows(report: Report) -> str:
     names = _shown(report)
     head = ["spacing, m", "particles", "CPU s", "runs", *(_name(name) for name in names)]
     rows = [[f"{row.spacing:.4g}", str(row.particles), f"{row.cpu_seconds:.2g}", str(row.runs) if row.runs else "forecast",
-             *(f"{100 * row.errors[name] / report.scale[name]:.1f} %" for name in names)] for row in report.rows]
+             *(report._percent(row, name, "–") for name in names)] for row in report.rows]
     return _table(head, rows, ["" if row.runs else "forecast" for row in report.rows])
 
 

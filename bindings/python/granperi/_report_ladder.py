@@ -12,6 +12,7 @@ from ._scene import Scene
 
 LEAST = 5  # spacings over the smallest side, at least: below it is not the same scene any more
 RATIO = 1.4  # of neighbouring spacings; at least 1.3 is the advice of Celik et al. (2008)
+BARELY = 0.02  # of a side: what is rounded by less than this counts as whole
 ROUNDED = 20.0  # what the rounded share of a side counts against the wish for that ratio: it moves widths by as much
 
 
@@ -41,6 +42,15 @@ class Sides:
     def rounded(self, spacing: float) -> float:
         """The largest share of a side that is lost or won by rounding."""
         return max((abs(round(side / spacing) - side / spacing) * spacing / side for side in self.sides), default=0.0)
+
+    def finer(self, spacing: float) -> list[float]:
+        """What may follow a spacing, from a sixth to two thirds finer; what comes closest to RATIO first, and what rounds sides
+        only where all of them do."""
+        n = self.smallest / spacing
+        near = range(math.ceil(1.2 * n - 1e-9), math.floor(1.2 * RATIO * n) + 1)
+        whole = [k for k in near if self.rounded(self.spacing(k)) < BARELY]
+        return [self.spacing(k) for k in sorted(whole or near, key=lambda k: ROUNDED * self.rounded(self.spacing(k))
+                                                + abs(math.log(k / (RATIO * n))))]
 
     def ladder(self, finest: int, levels: int) -> list[int]:
         """So many spacings over the smallest side, from coarse to fine; fewer where the coarsest would be too coarse."""

@@ -10,7 +10,7 @@ from typing import Any, Mapping, Sequence
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match, number, whole
 from ._library import lib, text_of
 from ._objects import Config
-from ._report_ladder import Cost, Sides
+from ._report_ladder import BARELY, Cost, Sides
 from ._report_runs import QUANTITIES, REST, Measured
 from ._report_statistics import CONVERGES, DIVERGES, IRREGULAR, UNSURE, Convergence
 from ._scene import Scene
@@ -26,7 +26,8 @@ NOT_REACHED = "not in every run"  # a quantity that some runs do not have
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """One spacing: run (runs > 0) or forecast. errors: of one run, by quantity, in its unit, in 9 of 10 cases not more."""
+    """One spacing: run (runs > 0) or forecast. errors: of one run, by quantity, in its unit, in 9 of 10 cases not more; NaN where
+    none is forecast, as the quantity does not converge."""
 
     spacing: float
     runs: int
@@ -88,8 +89,10 @@ class Report:
 
     runs: every run (spacing, seed, particles, steps, CPU seconds, values). rows: from the coarsest to the finest spacing, run or
     forecast. convergence: by quantity; scale: what its relative errors are relative to. recommendation: for the accuracy asked for.
-    plan: stages and fields of the finest run. warnings: what the library said of the scene.
+    plan: stages and fields of the finest run. warnings: what the library said of the scene. ended: why no more was run.
     """
+
+    ended = ""
 
     def __init__(self, scene: Scene, end: float, accuracy: float, budget: float, seconds: float, runs: Sequence[Measured],
                  spacings: Sequence[float], start: Mapping[str, float], plan: Sequence[PlanEntry], own: Mapping[str, Any],
@@ -102,7 +105,7 @@ class Report:
         self._config, self._start, self._sides = scene.config, start, Sides(scene)
         self.convergence: dict[str, Convergence] = {}
         for name in (*MAIN, *self.own, *MARKS.values()):
-            values = {h: [run.values[name] for run in self.runs if run.spacing == h] for h in self.spacings}
+            values = self._values(name)
             if all(math.isfinite(value) for some in values.values() for value in some):
                 self.convergence[name] = Convergence(values)
         self.scale = {name: self._scale(name) for name in self.convergence}
@@ -123,6 +126,16 @@ class Report:
             return change if change > 0.25 * value else value
         return value
 
+    def _runs_at(self, spacing: float) -> list[Measured]:
+        return [run for run in self.runs if run.spacing == spacing]
+
+    def _values(self, name: str) -> dict[float, list[float]]:
+        return {h: [run.values[name] for run in self._runs_at(h)] for h in self.spacings}
+
+    def _stated(self, name: str, spacing: float) -> bool:
+        """Whether an error is: a forecast takes for granted that it shrinks with the spacing."""
+        return self.convergence[name].verdict != DIVERGES or spacing >= 0.999 * self.spacings[-1]
+
     def error(self, name: str, spacing: float, runs: int = 1) -> float:
         """Relative error of the mean of this many runs at any spacing, not exceeded in 9 of 10 cases.
 
@@ -132,7 +145,8 @@ class Report:
             runs: number of runs, at least 1.
 
         Returns:
-            A fraction (0.05 is 5 %); NaN where there is nothing to relate it to.
+            A fraction (0.05 is 5 %); NaN where there is nothing to relate it to, and at spacings finer than all that were run of
+            what does not converge.
 
         Raises:
             ArgumentError: a quantity that the report does not have, a spacing or number of runs outside its range.
@@ -146,14 +160,15 @@ class Report:
         if not (0 < spacing < math.inf and runs >= 1):
             raise ArgumentError(f"spacing = {spacing:g}, runs = {runs}: expected a finite number above 0 (m), and a whole one >= 1")
         scale = self.scale[name]
-        return self.convergence[name].error(spacing, runs) / scale if scale > 0 else math.nan
+        return self.convergence[name].error(spacing, runs) / scale if scale > 0 and self._stated(name, spacing) else math.nan
 
     def _row(self, spacing: float) -> Row:
-        there = [run for run in self.runs if run.spacing == spacing]
+        there = self._runs_at(spacing)
         particles = there[0].particles if there else round(self.cost.particles(spacing))
         seconds = sum(run.cpu_seconds for run in there) / len(there) if there else self.cost.seconds(spacing)
         return Row(spacing, len(there), particles, seconds,
-                   {name: one.error(spacing) for name, one in self.convergence.items()})
+                   {name: one.error(spacing) if self._stated(name, spacing) else math.nan
+                    for name, one in self.convergence.items()})
 
     def recommend(self, accuracy: float, of: Sequence[str] = ASKED) -> Recommendation:
         """The cheapest spacing and number of runs by which these quantities err by less than an accuracy in 9 of 10 cases.
@@ -185,7 +200,8 @@ class Report:
             if name not in self.convergence:
                 return none(f"{name} is {NOT_REACHED}: run longer, to a later end")
             if self.convergence[name].verdict == DIVERGES:
-                return none(f"{name} does not converge at the spacings that were run: only finer ones could show that it does")
+                return none(f"{name} does not converge at the spacings that were run, {self.spacings[0]:.3g} to {self.spacings[-1]:.3g} "
+                            "m, so nothing is forecast for it; only finer ones could show that it does")
         best: Recommendation | None = None
         for spacing in self._candidates():
             each = self.cost.seconds(spacing)
@@ -206,7 +222,7 @@ class Report:
         wanted = [h for h in self.spacings]
         n, last = self._sides.smallest / self.spacings[0], self._sides.smallest / self.spacings[-1]
         wanted += [self._sides.spacing(k) for k in range(math.ceil(n), math.floor(4 * last) + 1)
-                   if self._sides.rounded(self._sides.spacing(k)) < 0.02]
+                   if self._sides.rounded(self._sides.spacing(k)) < BARELY]
         return sorted(set(wanted), reverse=True)
 
     def _because(self, spacing: float, of: Sequence[str]) -> str:
@@ -245,15 +261,19 @@ class Report:
         order = f"{one.order:.1f} ({one.order_range[0]:.2g} to {one.order_range[1]:.2g})"
         return one.verdict, order if one.verdict in (CONVERGES, UNSURE) else ""
 
+    def _percent(self, row: Row, name: str, none: str = "-") -> str:
+        """The relative error of one run, where one is stated."""
+        error = row.errors[name] / self.scale[name] if self.scale[name] > 0 else math.nan
+        return f"{100 * error:.1f} %" if math.isfinite(error) else none
+
     def __str__(self) -> str:
         names = [name for name in (*MAIN, *self.own) if name in self.convergence]
         lines = [f"{self.name} to {self.end:g} s: {len(self.runs)} runs in {self.seconds:.3g} s",
                  "relative error of one run, in 9 of 10 cases less:",
                  f"{'spacing (m)':>12} {'particles':>9} {'CPU (s)':>8} {'runs':>4}" + "".join(f" {name:>11}" for name in names)]
         for row in self.rows:
-            lines.append(f"{row.spacing:>12.4g} {row.particles:>9} {row.cpu_seconds:>8.2g} {row.runs or '-':>4}" + "".join(
-                f" {100 * row.errors[name] / self.scale[name]:>9.1f} %" if self.scale[name] > 0 else f" {'-':>11}"
-                for name in names))
+            lines.append(f"{row.spacing:>12.4g} {row.particles:>9} {row.cpu_seconds:>8.2g} {row.runs or '-':>4}"
+                         + "".join(f" {self._percent(row, name):>11}" for name in names))
         lines.append(f"{'':12} {'limit':>12} {'+-':>9} {'scatter':>9}  observed order")
         for name in (*MAIN, *self.own):
             verdict, order = self._judged(name)
@@ -263,7 +283,7 @@ class Report:
             one = self.convergence[name]
             lines.append(f"{name:<12} {one.limit:>12.5g} {one.limit_error:>9.2g} {one.levels[-1].scatter:>9.2g}  {verdict}"
                          + (f", order {order}" if order else ""))
-        return "\n".join([*lines, str(self.recommendation), *self.advice()])
+        return "\n".join([*lines, str(self.recommendation), *([self.ended] if self.ended else []), *self.advice()])
 
     # --------------------------------------------------------------------------------------------- writing
 
@@ -295,7 +315,8 @@ class Report:
             "format": FORMAT, "granperi": text_of(lib.gp_version_string()), "scene": self.name, "end": self.end,
             "budget": self.budget, "seconds": self.seconds, "spacings": list(self.spacings),
             "rows": [dataclasses.asdict(row) for row in self.rows], "quantities": quantities,
-            "recommendation": dataclasses.asdict(self.recommendation), "advice": self.advice(), "warnings": list(self.warnings),
+            "recommendation": dataclasses.asdict(self.recommendation), "ended": self.ended, "advice": self.advice(),
+            "warnings": list(self.warnings),
             "stages": stages,
             "left_out": [{"name": entry.name, "kind": "field" if entry.kind else "stage", "reason": entry.reason}
                          for entry in self.plan if not entry.active],

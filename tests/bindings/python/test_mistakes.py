@@ -290,6 +290,8 @@ def test_a_doubtful_scene_is_warned_of(scene, text):
     (("info", "--plan"), 2, "--plan: expected a scene file"),
     (("run", "scene.toml", "--output", "result.h5"), 1, "result.h5 exists: "),
     (("run", "scene.toml", "--end", "-1"), 2, "end = -1"),
+    (("run", "scene.toml", "--output", "new.h5", "--spacing", "0"), 2, "granperi: --spacing 0: expected a number from"),
+    (("run", "scene.toml", "--output", "new.h5", "--threads", "-1"), 2, "granperi: --threads -1: expected a whole number from 0 to"),
     (("run", "scene.toml", "--output", "new.h5", "--mpi", "0"), 2, "--mpi 0: expected a number of processes, 1 or more"),
     (("run", "sleeps.toml", "--mpi", "4"), 2, "sleeps.toml, line 4, [config]: gp_config.sleep = 1: expected 0 with --mpi, nothing sleeps on "
      "several processes. Set sleep = 0 there, as granperi.settings(..., processes=4) does, or leave it out"),

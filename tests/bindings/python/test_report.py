@@ -27,10 +27,13 @@ LIMIT = {"peak_height": 0.033, "width_50": 0.07, "width_90": 0.17, "width_98": 0
 
 
 class Machine:
-    """A clock and runs on paper: the error goes as the spacing to the power of 1.5, the time with its cube."""
+    """A clock and runs on paper: the error goes as the spacing to the power of 1.5, the time with its cube.
 
-    def __init__(self, monkeypatch, pace=1.0, seconds=0.4):
-        self.now, self.pace, self.seconds, self.asked = 1000.0, pace, seconds, []
+    error: relative, of what is `fine` times as fine as 2.5 mm; chance: of one run.
+    """
+
+    def __init__(self, monkeypatch, pace=1.0, seconds=0.4, error=lambda fine: -2e-2 * fine**-1.5, chance=1e-3):
+        self.now, self.pace, self.seconds, self.asked, self.error, self.chance = 1000.0, pace, seconds, [], error, chance
         self.rng = np.random.default_rng(1)
         monkeypatch.setattr(_report, "time", types.SimpleNamespace(monotonic=lambda: self.now))
         monkeypatch.setattr(_report, "measure", self.measure)
@@ -44,7 +47,7 @@ class Machine:
         if self.now > deadline():
             self.now = deadline()
             raise _report_runs.OutOfTime
-        values = {name: value * (1 - 2e-2 * fine**-1.5 + 1e-3 * self.rng.normal()) for name, value in LIMIT.items()}
+        values = {name: value * (1 + self.error(fine) + self.chance * self.rng.normal()) for name, value in LIMIT.items()}
         values |= {"rest_time": 0.3 + 0.001 * self.rng.normal(), **dict.fromkeys(granperi._state.MARKS.values(), 0.01)}
         values |= dict.fromkeys(quantities, 1 / fine)
         plan = [granperi.PlanEntry("force", "always", 0, True, 0, cpu, steps),
@@ -70,11 +73,102 @@ def test_the_budget_is_kept_and_used(monkeypatch, scene, budget, pace):
     begin = machine.now
     found = granperi.report(scene, budget=budget * pace)
     assert machine.now - begin <= budget * pace
-    # What four runs at four spacings leave is less than what a finer ladder would take; at half the scene's spacing it ends.
-    assert machine.now - begin > 0.35 * budget * pace or min(found.spacings) == pytest.approx(0.00125)
+    # What four runs at four spacings leave is less than what a finer ladder would take.
+    assert machine.now - begin > 0.35 * budget * pace or "the accuracy is reached" in found.ended
     assert all(sum(run.spacing == h for run in found.runs) >= 2 for h in found.spacings)
     across = [0.05 / h for h in found.spacings]
     assert across == pytest.approx([round(n) for n in across])  # the columns' smallest side is a whole number of each
+
+
+@pytest.mark.parametrize("accuracy", [0.03, 0.01, 0.003])
+@pytest.mark.parametrize("budget", [5, 20, 60])
+def test_finer_spacings_follow_until_the_accuracy_is_reached(monkeypatch, scene, budget, accuracy):
+    """The scene's own spacing is coarse, and half of it is not enough."""
+    scene.config = scene.config.replace(spacing=0.005)
+    machine = Machine(monkeypatch, seconds=0.2)
+    begin = machine.now
+    found = granperi.report(scene, budget, accuracy)
+    used, chosen = machine.now - begin, found.recommendation
+    assert used <= budget
+    if "the accuracy is reached" in found.ended:
+        assert chosen.runs and chosen.spacing >= 0.999 * found.spacings[-1]
+    else:
+        assert 0.5 * budget < used and "a finer spacing is not sure to fit into what is left" in found.ended
+        assert not chosen.runs or "extrapolated" in chosen.reason
+    assert found.spacings[-1] < 0.0025 or found.error("width_90", found.spacings[-1], 16) <= accuracy
+    assert found.ended in str(found) and found.ended in found.html()
+    ratios = [a / b for a, b in zip(found.spacings, found.spacings[1:])]
+    assert min(ratios) >= 1.2 - 1e-9 and max(ratios) < 1.7
+
+
+def test_the_budget_that_is_named_has_room_for_a_finer_spacing(monkeypatch, scene):
+    scene.config = scene.config.replace(spacing=0.005)
+    Machine(monkeypatch, seconds=0.2)
+    short = granperi.report(scene, 10, 1e-3)
+    named = re.search(r"two runs at (\S+) m take some \S+ s, for which a budget of (\S+) s has room", short.ended)
+    Machine(monkeypatch, seconds=0.2)
+    assert granperi.report(scene, float(named[2]), 1e-3).spacings[-1] <= 1.01 * float(named[1]) < short.spacings[-1]
+
+
+def test_forecasts_that_are_too_low_do_not_exceed_the_budget(monkeypatch, scene):
+    """Beyond the first spacings a run takes twice what theirs let expect: what is not done in time is no part of the report."""
+    scene.config = scene.config.replace(spacing=0.005)
+    machine = Machine(monkeypatch, seconds=0.2)
+    begin, seconds = machine.now, machine.seconds
+
+    def slower(one, spacing, *more):
+        machine.seconds = seconds * (2 if spacing < 0.0024 else 1)
+        return machine.measure(one, spacing, *more)
+
+    monkeypatch.setattr(_report, "measure", slower)
+    found = granperi.report(scene, 12, 1e-3)
+    assert 6 < machine.now - begin <= 12 and found.spacings[-1] < 0.0024
+    assert all(len([run for run in found.runs if run.spacing == h]) >= 2 for h in found.spacings)
+
+
+def test_more_runs_where_chance_is_most_of_the_error(monkeypatch, scene):
+    machine = Machine(monkeypatch, error=lambda fine: 0.0, chance=0.02)
+    begin = machine.now
+    found = granperi.report(scene, 60, 0.012)
+    runs = [sum(run.spacing == h for run in found.runs) for h in found.spacings]
+    assert machine.now - begin <= 60 and max(runs) > 4
+    Machine(monkeypatch, error=lambda fine: -0.1 / fine)
+    found = granperi.report(scene, 60, 0.001)  # hardly any chance
+    assert max(sum(run.spacing == h for run in found.runs) for h in found.spacings) == 4
+
+
+def test_what_does_not_converge_is_made_finer_and_not_forecast(monkeypatch, scene):
+    machine = Machine(monkeypatch, error=lambda fine: 0.1 * math.log(fine))
+    begin = machine.now
+    found = granperi.report(scene, 60, 0.2, of=["peak_height"])
+    assert 30 < machine.now - begin <= 60 and found.spacings[-1] < 0.00125
+    assert found.convergence["peak_height"].verdict == granperi._report_statistics.DIVERGES
+    span = f"{found.spacings[0]:.3g} to {found.spacings[-1]:.3g} m"
+    assert f"does not converge at the spacings that were run, {span}, so nothing is forecast" in found.recommendation.reason
+    assert math.isfinite(found.error("peak_height", found.spacings[-1])) and math.isnan(found.error("peak_height", 0.0005))
+    for row in found.rows:
+        assert math.isfinite(row.errors["peak_height"]) == (row.runs > 0)
+    assert found.data()["rows"][-1]["errors"]["peak_height"] is None
+    assert str(found).splitlines()[2 + len(found.rows)].split()[4] == "-" and "nan" not in str(found) + found.html().lower()
+
+
+def test_why_it_ended(monkeypatch, scene):
+    Machine(monkeypatch)
+    given = granperi.report(scene, 600, 0.001, spacings=[0.01, 0.007, 0.005], seeds=2)
+    assert len(given.runs) == 6 and given.ended.endswith("of 600 s: the spacings were given, so no others were run.")
+    reached = granperi.report(scene, 600, 0.9, spacings=[0.01, 0.007, 0.005], seeds=2)
+    assert reached.ended.endswith("of 600 s: the accuracy is reached at a spacing no finer than what was run.")
+    machine = Machine(monkeypatch)
+
+    def never_at_rest(*arguments):
+        one, plan = machine.measure(*arguments)
+        one.values["rest_time"] = math.nan
+        return one, plan
+
+    monkeypatch.setattr(_report, "measure", never_at_rest)
+    moving = granperi.report(scene, 600, 0.001, of=["rest_time"])
+    assert moving.ended.endswith("rest_time is not in every run, which only a later end would change.")
+    assert moving.spacings[-1] == 0.00125 and len(moving.runs) == 4 * 4 + 2  # and two that told the cost
 
 
 def test_the_bar_moves_while_a_run_goes_on(monkeypatch, scene):
@@ -153,7 +247,7 @@ def test_json_has_all_numbers(made, tmp_path):
     data = json.loads((tmp_path / "report.json").read_text())
     assert data["format"] == 1 and data["granperi"] == granperi.__version__ and data["end"] == 0.4
     assert set(data) == {"format", "granperi", "scene", "end", "budget", "seconds", "spacings", "rows", "quantities",
-                         "recommendation", "advice", "warnings", "stages", "left_out", "runs"}
+                         "recommendation", "ended", "advice", "warnings", "stages", "left_out", "runs"}
     assert set(data["quantities"]) == {"peak_height", "width_50", "width_90", "width_98", "rest_time", "x_q01", "x_q05", "x_q25",
                                        "x_q50", "x_q75", "x_q95", "x_q99"}
     peak = data["quantities"]["peak_height"]
