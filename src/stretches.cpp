@@ -85,14 +85,14 @@ void collect_numbers(Crossing &crossing, const double *own, int64_t count,
                      const std::function<void(int64_t all)> &make_room,
                      const std::function<void(const std::vector<double> &piece)> &body) {
     constexpr int64_t numbers = 3 * 4; // a multiple of the numbers of all items
-    const int64_t everywhere = sum_over(crossing, count);
+    const int64_t all = sum_over(crossing, count);
     OnFirst first(crossing);
-    first.run([&] { make_room(everywhere); });
-    std::vector<double> out, all;
+    first.run([&] { make_room(all); });
+    std::vector<double> out, piece;
     for_each_turn(crossing, (count + numbers - 1) / numbers, [&](int64_t begin, int64_t end) {
         out.assign(own + std::min(count, numbers * begin), own + std::min(count, numbers * end));
-        crossing.gather(out, all);
-        first.run([&] { body(all); });
+        crossing.gather(out, piece);
+        first.run([&] { body(piece); });
     });
     first.finish();
 }
