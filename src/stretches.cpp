@@ -75,7 +75,8 @@ void take_in_order(Crossing &crossing, const OrderedRows &own, const TakeRows &b
 
 void for_each_turn(Crossing &crossing, int64_t count, const std::function<void(int64_t begin, int64_t end)> &body) {
     const int64_t most = std::max<int64_t>(1, stretch_size / crossing.ranks());
-    double turns = static_cast<double>((count + most - 1) / most);
+    const int64_t own = (count + most - 1) / most;
+    auto turns = static_cast<double>(own);
     crossing.combine(&turns, 1, nullptr, 0);
     for (int64_t turn = 0; turn < static_cast<int64_t>(turns); ++turn)
         body(std::min(count, turn * most), std::min(count, (turn + 1) * most));
