@@ -37,6 +37,7 @@ static struct {
 } options = {NULL, NULL, NULL, NAN, 0, 0, 0};
 
 static int rank, ranks;
+static gp_sim *sim;
 static volatile sig_atomic_t asked_to_stop;
 
 static void ask_to_stop(int signal_number) {
@@ -54,6 +55,7 @@ static void fail(const char *format, ...) {
         fputc('\n', stderr);
         va_end(values);
     }
+    gp_destroy(sim);
     MPI_Finalize();
     exit(2);
 }
@@ -115,7 +117,7 @@ static void say(void *user, int32_t level, const char *text) {
 
 static double begin_time, begun, told;
 
-static void tell(gp_sim *sim) {
+static void tell(void) {
     double time, dt;
     int64_t step;
     gp_get_clock(sim, &time, &dt, &step);
@@ -127,13 +129,13 @@ static void tell(gp_sim *sim) {
 }
 
 /* All processes decide alike, whichever has got the signal. */
-static int32_t after_steps(void *user, gp_sim *sim) {
-    (void)user;
+static int32_t after_steps(void *user, gp_sim *stepped) {
+    (void)user, (void)stepped;
     int stop = asked_to_stop;
     MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     if (rank == 0 && !options.quiet && MPI_Wtime() - told > 5) {
         told = MPI_Wtime();
-        tell(sim);
+        tell();
     }
     return stop;
 }
@@ -150,7 +152,6 @@ int main(int argc, char **argv) {
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGUSR1, &action, NULL);
 
-    gp_sim *sim;
     check(gp_load_mpi(options.file, MPI_COMM_WORLD, &sim));
     gp_set_log(sim, say, NULL);
     gp_get_clock(sim, &begin_time, NULL, NULL);
@@ -168,7 +169,7 @@ int main(int argc, char **argv) {
     const gp_status status = gp_run(sim, options.end);
     check(status);
     if (rank == 0 && !options.quiet)
-        tell(sim);
+        tell();
     char stopped[4096];
     snprintf(stopped, sizeof stopped, "%s.stopped", options.file);
     const char *save = options.save ? options.save : status == GP_STOPPED ? stopped : NULL;

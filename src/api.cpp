@@ -40,6 +40,19 @@ void put_id(int32_t *id, int32_t value) {
         *id = value;
 }
 
+// add returns an id, which the host gets once all processes have added.
+template <class Add> gp_status add_together(gp_sim *sim, int32_t *id, const Add &add) {
+    put_id(id, 0);
+    int32_t added = 0;
+    const gp_status status = guard_together(sim, [&] {
+        added = add();
+        return GP_OK;
+    });
+    if (status == GP_OK)
+        put_id(id, added);
+    return status;
+}
+
 } // namespace
 
 extern "C" {
@@ -122,38 +135,29 @@ void gp_destroy(gp_sim *sim) {
 }
 
 gp_status gp_add_material(gp_sim *sim, const gp_material *material, int32_t *id) {
-    put_id(id, 0);
-    return guard_together(sim, [&] {
+    return add_together(sim, id, [&] {
         Sim &s = outside_callback(sim, "gp_add_material");
-        put_id(id, s.add_material(complete(material, default_material(), "gp_material")));
-        return GP_OK;
+        return s.add_material(complete(material, default_material(), "gp_material"));
     });
 }
 
 gp_status gp_add_column(gp_sim *sim, const gp_column *column, int32_t *id) {
-    put_id(id, 0);
-    return guard_together(sim, [&] {
+    return add_together(sim, id, [&] {
         Sim &s = outside_callback(sim, "gp_add_column");
-        put_id(id, s.add_column(complete(column, default_column(), "gp_column")));
-        return GP_OK;
+        return s.add_column(complete(column, default_column(), "gp_column"));
     });
 }
 
 gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                            const double *vy, int32_t *id) {
-    put_id(id, 0);
-    return guard_together(sim, [&] {
-        put_id(id, outside_callback(sim, "gp_add_particles").add_particles(material, n, x, y, vx, vy));
-        return GP_OK;
-    });
+    return add_together(
+        sim, id, [&] { return outside_callback(sim, "gp_add_particles").add_particles(material, n, x, y, vx, vy); });
 }
 
 gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id) {
-    put_id(id, 0);
-    return guard_together(sim, [&] {
+    return add_together(sim, id, [&] {
         Sim &s = outside_callback(sim, "gp_add_plate");
-        put_id(id, s.add_plate(complete(plate, default_plate(), "gp_plate")));
-        return GP_OK;
+        return s.add_plate(complete(plate, default_plate(), "gp_plate"));
     });
 }
 

@@ -26,7 +26,8 @@ public:
     virtual int rank() const = 0; // 0 .. ranks() - 1
     virtual int ranks() const = 0;
 
-    // What this process has met; returns what all are to throw. Where all have met what they had foreseen, they may go on; else no more can be done together.
+    // What this process has met; returns what all are to throw. Where all have met what they had foreseen, they may go on; else no
+    // more can be done together.
     virtual SharedFailure fail(const Failure &failure) = 0;
     // Throws what has ended it before, if anything.
     virtual void require_going() const = 0;

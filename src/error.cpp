@@ -2,6 +2,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 namespace gp {
@@ -57,6 +58,15 @@ Failure failure_at_hand() noexcept {
         tell(GP_E_INTERNAL, "unknown exception");
     }
     return failure;
+}
+
+void name_rank(Failure &failure, int rank) noexcept {
+    char name[32];
+    std::snprintf(name, sizeof name, "rank %d: ", rank);
+    if (std::strncmp(failure.text, name, std::strlen(name)) == 0)
+        return;
+    const Failure unnamed = failure;
+    std::snprintf(failure.text, sizeof failure.text, "%s%.980s", name, unnamed.text);
 }
 
 void set_last_error(const char *text) noexcept {

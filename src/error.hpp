@@ -20,11 +20,13 @@ private:
 // What has been thrown, as the interface tells of it, without memory of its own.
 struct Failure {
     gp_status status = GP_OK;
-    bool foreseen = false; // an Error, not one of memory or of a callback
+    bool foreseen = false; // an Error: it leaves what all can go on with
     char text[1024] = "";
 };
 // In a handler of any exception.
 Failure failure_at_hand() noexcept;
+// Puts "rank N: " before the text, unless that stands there already.
+void name_rank(Failure &failure, int rank) noexcept;
 
 // What all of several processes have been told of (crossing.hpp): each of them throws it.
 struct SharedFailure {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "material/compression.hpp"
 #include "stretches.hpp"
@@ -126,10 +127,7 @@ void find_farthest(const World &world, const Vector &gravity, std::vector<double
     world.crossing->gather_everywhere(own_y, y);
 }
 
-} // namespace
-
-void change_gravity(World &world, const Vector &gravity) {
-    const Energies before = measure_energies(world);
+void fall_by(World &world, const Vector &gravity, const Energies &before) {
     const Particles &p = world.particles;
     if (world.crossing) {
         std::vector<double> x, y;
@@ -144,6 +142,21 @@ void change_gravity(World &world, const Vector &gravity) {
     ledger.level = before.potential - potential;
     ledger.scale = before.kinetic + before.elastic + potential;
     ledger.largest_kinetic = before.kinetic;
+}
+
+} // namespace
+
+void change_gravity(World &world, const Vector &gravity) {
+    const Energies before = measure_energies(world);
+    Constants constants = world.constants;
+    const Ledger ledger = world.ledger;
+    try {
+        fall_by(world, gravity, before);
+    } catch (...) { // the first process lacks memory to measure
+        world.constants = std::move(constants);
+        world.ledger = ledger;
+        throw;
+    }
     world.unbalanced_share = 1; // nobody knows yet what still bears
 }
 

@@ -30,6 +30,7 @@ void open_ledger(World &world);
 
 // Gravity from now on. The potential goes on from where it is, so that the ledger closes as before: it is what gravity has not
 // yet done of its work. What counts as much energy and as little is told from where the material now is.
+// What fails changes nothing.
 void change_gravity(World &world, const Vector &gravity);
 
 } // namespace gp

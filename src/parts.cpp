@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <initializer_list>
 
 #include "error.hpp"
@@ -124,10 +123,9 @@ void run_on_first(Crossing &crossing, const std::function<void()> &body) {
         } catch (const SharedFailure &) {
             throw;
         } catch (...) {
-            const Failure met = failure_at_hand();
-            failure = met;
-            if ((!met.foreseen || met.status == GP_E_MEMORY) && is_shared(&crossing))
-                std::snprintf(failure.text, sizeof failure.text, "rank 0: %.1000s", met.text);
+            failure = failure_at_hand();
+            if ((!failure.foreseen || failure.status == GP_E_MEMORY) && is_shared(&crossing))
+                name_rank(failure, 0);
         }
     }
     tell_all(&crossing, &failure.status);

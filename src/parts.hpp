@@ -29,7 +29,8 @@ std::vector<Field<double> *> carried_fields(Particles &particles);
 // Room for so many particles.
 void resize_part(World &world, int64_t count);
 
-// Runs body on the first process; all throw what it throws there.
+// Runs body, which only reads the world, on the first process. All throw what it throws there: an Error also where that is
+// of memory, so that the simulation goes on.
 void run_on_first(Crossing &crossing, const std::function<void()> &body);
 // The same where there may be no others (NULL, a world that is no part): then here.
 template <class Body> void on_first(Crossing *crossing, const Body &body) {
@@ -66,6 +67,8 @@ public:
             return;
         try {
             body();
+        } catch (const SharedFailure &) {
+            throw;
         } catch (...) {
             failure_ = std::current_exception();
         }

@@ -76,7 +76,7 @@ std::vector<std::string> Sim::take_step() {
             done = true;
         } catch (const Error &error) {
             if (error.status() != GP_E_DIVERGED)
-                throw;
+                leave_step();
             const double dt = world.clock.dt;
             undo_step(world);
             std::vector<Piece> &pieces = world.pieces;
@@ -92,10 +92,10 @@ std::vector<std::string> Sim::take_step() {
             ++world.retries;
             if (notes.empty())
                 notes = warnings_.of_retry(world, error.what());
-        } catch (...) {                      // out of memory
-            if (!is_shared(crossing_.get())) // others may be anywhere in theirs
-                undo_step(world, UndoneOrder::as_it_is);
+        } catch (const SharedFailure &) {
             throw;
+        } catch (...) {
+            leave_step();
         }
     }
     const Clock &clock = world.clock;
@@ -103,6 +103,18 @@ std::vector<std::string> Sim::take_step() {
         world.pieces.pop_back();
     ++epoch_;
     return notes;
+}
+
+// In a handler of what is no divergence: out of memory, most likely. A process alone may take the step again; of several, each
+// may be anywhere in it: that is the end.
+void Sim::leave_step() {
+    if (!is_shared(crossing_.get())) {
+        undo_step(*world_, UndoneOrder::as_it_is);
+        throw;
+    }
+    Failure failure = failure_at_hand();
+    failure.foreseen = false;
+    throw crossing_->fail(failure);
 }
 
 gp_status Sim::advance(gp_sim *handle, double t_end) {
@@ -115,7 +127,7 @@ gp_status Sim::advance(gp_sim *handle, double t_end) {
         diverged_ = error.status() == GP_E_DIVERGED;
         ++epoch_;
         throw;
-    } catch (...) { // out of memory: the step is undone and may be taken again
+    } catch (...) { // out of memory
         ++epoch_;
         throw;
     }
@@ -263,6 +275,8 @@ void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
     require_finite("vx", vx);
     require_finite("vy", vy);
     require_finite("omega", omega);
+    if (crossing_)
+        crossing_->require_going();
     const Motion motion{{vx, vy}, omega};
     require_tangential(scene_.plates()[plate], motion, "plate");
     scene_.require_room_to_turn(scene_.plates()[plate], motion, "plate");

@@ -85,6 +85,7 @@ private:
     void check_demanded_step() const;
     void run_stages();
     std::vector<std::string> take_step(); // or a piece of it after halving; returns what the log is to be told
+    [[noreturn]] void leave_step();
     void set_world(std::unique_ptr<World> world);
     gp_status advance(gp_sim *handle, double t_end); // one step, output and callback
 

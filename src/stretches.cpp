@@ -75,7 +75,8 @@ void take_in_order(Crossing &crossing, const OrderedRows &own, const TakeRows &b
 
 void for_each_turn(Crossing &crossing, int64_t count, const std::function<void(int64_t begin, int64_t end)> &body) {
     const int64_t most = std::max<int64_t>(1, stretch_size / crossing.ranks());
-    double turns = static_cast<double>((count + most - 1) / most);
+    const int64_t own = (count + most - 1) / most;
+    auto turns = static_cast<double>(own);
     crossing.combine(&turns, 1, nullptr, 0);
     for (int64_t turn = 0; turn < static_cast<int64_t>(turns); ++turn)
         body(std::min(count, turn * most), std::min(count, (turn + 1) * most));
@@ -85,14 +86,14 @@ void collect_numbers(Crossing &crossing, const double *own, int64_t count,
                      const std::function<void(int64_t all)> &make_room,
                      const std::function<void(const std::vector<double> &piece)> &body) {
     constexpr int64_t numbers = 3 * 4; // a multiple of the numbers of all items
-    const int64_t everywhere = sum_over(crossing, count);
+    const int64_t all = sum_over(crossing, count);
     OnFirst first(crossing);
-    first.run([&] { make_room(everywhere); });
-    std::vector<double> out, all;
+    first.run([&] { make_room(all); });
+    std::vector<double> out, piece;
     for_each_turn(crossing, (count + numbers - 1) / numbers, [&](int64_t begin, int64_t end) {
         out.assign(own + std::min(count, numbers * begin), own + std::min(count, numbers * end));
-        crossing.gather(out, all);
-        first.run([&] { body(all); });
+        crossing.gather(out, piece);
+        first.run([&] { body(piece); });
     });
     first.finish();
 }

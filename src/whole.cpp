@@ -196,7 +196,7 @@ void take_fields(const std::vector<Field<double> *> &fields, int64_t i, const do
 
 } // namespace
 
-// Lists are made twice as the whole has them: first of equal shares, from which particles go to their owners.
+// Each begins with an equal share; from there particles go to their owners.
 std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const World *whole) {
     auto part = make_bare_world(scene, scene.constants(), 1); // fields in use have a size
     part->crossing = &crossing;

@@ -9,8 +9,8 @@
  *   gp_set_log         messages come on the first process; those about a running flow (gp_set_log) do not come;
  *   callbacks          are called on each process, and have to return the same everywhere.
  * States, loads, surfaces and interfaces are those of the whole, on every process; for them and for frames the first process needs
- * about 120 bytes for each particle of the whole. At the first step, or the first reading before it, for gp_save and for gp_load_mpi
- * it puts the whole together, with about 600, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
+ * about 120 bytes for each particle of the whole. At the first step, or the first reading before it, for gp_save and gp_load_mpi it
+ * puts the whole together, with about 600, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
  * two states do. Files are written by the first process, in the layout of a process alone: either goes on from the other's, on any
  * number of processes.
  *
@@ -19,8 +19,12 @@
  *
  * Errors come everywhere in the same call, with one status and one text. That of one process alone, out of memory for instance, is
  * named, "rank 2: out of memory"; it is the end of this simulation, whose later calls say the same, but not of the program: others
- * can be made. The exceptions: the calls that only read what is here (gp_get_particles, gp_get_plate_load, gp_get_plan,
- * gp_get_clock) fail here alone, and do no harm; and memory that MPI or Zoltan lack themselves is beyond this library.
+ * can be made. Work that the first process does alone for all, in gp_save, frames, states, surfaces, gp_set_gravity and the start,
+ * is an exception: what it meets there ends the call, and leaves the simulation as it was; gp_step(sim, 0) says which it is. In the
+ * middle of a step any error but GP_E_DIVERGED is the end. The calls that only read what is here (gp_get_particles,
+ * gp_get_plate_load, gp_get_plan, gp_get_clock) fail here alone, and do no harm; before the first step all but gp_get_clock are
+ * made by all, as the others. gp_set_callback, gp_set_log and gp_get_clock are possible after the end. Memory that MPI or Zoltan
+ * lack themselves is beyond this library, and so is room for a message on its way when another process failed: MPI_Abort.
  * gp_config.sleep and the paper's schemes are GP_E_UNSUPPORTED. */
 #ifndef GRANPERI_GP_MPI_H
 #define GRANPERI_GP_MPI_H
@@ -34,7 +38,8 @@ extern "C" {
 #endif
 
 /* Collective, as gp_create. MPI has been initialised, with MPI_THREAD_FUNNELED for gp_config.threads other than 1, and not yet
- * finalised, else GP_E_STATE; it is finalised after gp_destroy. The communicator is copied; MPI_COMM_NULL is GP_E_ARGUMENT. */
+ * finalised, else GP_E_STATE. It may be finalised before gp_destroy, which then only frees memory here. The communicator is copied;
+ * MPI_COMM_NULL is GP_E_ARGUMENT. */
 GP_API gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim);
 
 /* Collective, as gp_load: of a checkpoint by any number of processes, which every process can read. */

@@ -13,13 +13,13 @@ namespace {
 
 // What is combined, in one piece: this, then sums, then the numbers of which the largest are wanted.
 struct alignas(16) Head {
-    int32_t sums, largest;
+    int32_t purpose, sums, largest;
 };
 
 void combine_pieces(const void *in, void *inout) {
     const Head head = *static_cast<const Head *>(in);
     const Head expected = *static_cast<const Head *>(inout);
-    if (head.sums != expected.sums || head.largest != expected.largest)
+    if (head.purpose != expected.purpose || head.sums != expected.sums || head.largest != expected.largest)
         throw make_error(GP_E_STATE, "another process makes another call: expected the same ones, in the same order");
     const auto *sums = reinterpret_cast<const Whole *>(static_cast<const char *>(in) + sizeof(Head));
     auto *all_sums = reinterpret_cast<Whole *>(static_cast<char *>(inout) + sizeof(Head));
@@ -67,12 +67,12 @@ std::shared_ptr<MpiCrossing> MpiCrossing::between_all_of(MPI_Comm comm) {
 // ---------------------------------------------------------------------------------------------- reductions
 
 // By recursive doubling. What is combined is exact, so that the order does not matter.
-void MpiCrossing::combine(double *largest, int n_largest, Whole *sums, int n_sums) {
+void MpiCrossing::combine_for(Purpose purpose, double *largest, int n_largest, Whole *sums, int n_sums) {
     if (ranks() == 1)
         return;
     const Timer timer(waited_);
     ++traffic_.reductions;
-    const Head head{n_sums, n_largest};
+    const Head head{static_cast<int32_t>(purpose), n_sums, n_largest};
     const std::size_t sums_bytes = sizeof(Whole) * static_cast<std::size_t>(n_sums);
     const std::size_t first = sizeof head + sums_bytes,
                       largest_bytes = sizeof(double) * static_cast<std::size_t>(n_largest);
@@ -280,7 +280,7 @@ void MpiCrossing::swap(const double *out, double *in, int numbers) {
 }
 
 void MpiCrossing::cut(int64_t n, const double *x, const double *y, double work) {
-    combine(nullptr, 0, nullptr, 0); // Zoltan waits for all, and knows nothing of failures
+    combine_for(Purpose::cut, nullptr, 0, nullptr, 0); // Zoltan waits for all, and knows nothing of failures
     const Timer timer(waited_);
     ++traffic_.cuts;
     cut_.cut(n, x, y, work);

@@ -20,7 +20,9 @@ public:
     SharedFailure fail(const Failure &failure) override { return messages_.fail(failure); }
     void require_going() const override { messages_.require_going(); }
     double waited() const override { return waited_; }
-    void combine(double *largest, int n_largest, Whole *sums, int n_sums) override;
+    void combine(double *largest, int n_largest, Whole *sums, int n_sums) override {
+        combine_for(Purpose::numbers, largest, n_largest, sums, n_sums);
+    }
     void broadcast(void *data, int64_t bytes, int from) override;
     void gather(const std::vector<double> &own, std::vector<double> &all) override;
     void gather_everywhere(const std::vector<double> &own, std::vector<double> &all) override;
@@ -33,7 +35,8 @@ public:
 
 private:
     class Timer;
-    void combine_with(int rank, int bytes);
+    enum class Purpose : int32_t { numbers, cut };
+    void combine_for(Purpose purpose, double *largest, int n_largest, Whole *sums, int n_sums);
     void gather_rotated(const int64_t *sizes, double *numbers);
     std::vector<int64_t> sizes_of_all(std::size_t own);
     std::vector<int64_t> sizes_from_all(std::vector<int64_t> to);

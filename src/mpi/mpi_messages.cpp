@@ -1,7 +1,6 @@
 #include "mpi/mpi_messages.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 
 namespace gp::mpi {
@@ -81,7 +80,7 @@ Failure Verdict::failure() const {
     if (of_all_)
         return failure_;
     Failure named = failure_;
-    std::snprintf(named.text, sizeof named.text, "rank %d: %.1000s", rank_, failure_.text);
+    name_rank(named, rank_);
     return named;
 }
 
@@ -97,15 +96,25 @@ Messages::Messages(MPI_Comm comm) : comm_(comm) {
     end_requests_.reserve(2 * ranks);
 }
 
+// MPI_Finalize begins with the attributes of MPI_COMM_SELF: a host may call it before gp_destroy.
 void Messages::begin() {
     begun_ = true;
+    MPI_Comm_create_keyval(
+        MPI_COMM_NULL_COPY_FN,
+        [](MPI_Comm, int, void *self, void *) {
+            take_back(static_cast<Messages *>(self)->notice_);
+            return MPI_SUCCESS;
+        },
+        &at_end_, nullptr);
+    MPI_Comm_set_attr(MPI_COMM_SELF, at_end_, this);
     await_notice();
 }
 
 Messages::~Messages() {
     if (!begun_ || is_finalised())
         return;
-    take_back(notice_);
+    MPI_Comm_delete_attr(MPI_COMM_SELF, at_end_); // takes back the notice
+    MPI_Comm_free_keyval(&at_end_);
     MPI_Comm_free(&comm_);
 }
 
@@ -162,12 +171,15 @@ bool Messages::is_possible(const Pending &pending) const {
     return !peer.ended || pending.number <= (pending.in ? peer.theirs.sent : peer.theirs.received);
 }
 
-// own: what this one has met; NULL: it would wait for ever.
+// own: what this one has met; NULL: it would wait for ever. Any rank's notice is awaited only until this one has sent its own: who
+// has the notices of all goes on, and may send that of a next failure.
 SharedFailure Messages::end(const Failure *own) {
     require_going();
     for (std::size_t k = 0; k < requests_.size(); ++k)
         if (pending_[k].in && take_back(requests_[k]))
             ++peers_[pending_[k].rank].counts.received;
+    if (take_back(notice_))
+        note(incoming_);
     outgoing_ = {rank_, own != nullptr, own ? *own : Failure()};
     verdict_.add(rank_, own != nullptr, outgoing_.failure);
     for (int rank = 0; rank < ranks_; ++rank)
@@ -176,8 +188,6 @@ SharedFailure Messages::end(const Failure *own) {
             MPI_Isend(&peers_[rank].counts, sizeof(Counts), MPI_BYTE, rank, count_tag, comm_,
                       &end_requests_.emplace_back());
         }
-    if (take_back(notice_))
-        note(incoming_);
     for (int rank = 0; rank < ranks_; ++rank)
         if (rank != rank_ && !peers_[rank].ended) {
             MPI_Recv(&incoming_, sizeof incoming_, MPI_BYTE, rank, notice_tag, comm_, MPI_STATUS_IGNORE);
@@ -201,6 +211,7 @@ SharedFailure Messages::end(const Failure *own) {
     return {failure_};
 }
 
+// In room of its size. Open MPI 4.1 writes beyond what is given where a message is longer, and ends the process.
 void Messages::take_rest_of(int rank) {
     for (int64_t left = peers_[rank].theirs.sent - peers_[rank].counts.received; left > 0; --left) {
         MPI_Status status;
@@ -208,7 +219,7 @@ void Messages::take_rest_of(int rank) {
         MPI_Datatype type = MPI_BYTE;
         int count;
         MPI_Get_count(&status, type, &count);
-        if (count == MPI_UNDEFINED) // more than there are numbers for it: then of these
+        if (count == MPI_UNDEFINED) // More bytes than an int holds: then it is of doubles.
             MPI_Get_count(&status, type = MPI_DOUBLE, &count);
         void *const room = std::malloc((type == MPI_BYTE ? 1 : sizeof(double)) * static_cast<std::size_t>(count) + 1);
         if (!room)

@@ -2,9 +2,9 @@
 //
 // Whoever fails sends a notice to all, with the numbers of messages that it has sent and taken: so the others know which of
 // theirs can still be done. Whoever waits has a receive posted for notices, and ends with one of its own where it would wait for
-// ever. In the end all have the notices of all, which they judge alike, and have taken what was still on its way. Nothing of this
-// needs memory of its own. An error that all throw, after messages that say so, is told apart from one that is not shared: each
-// gets as far as it can, whatever notices come before.
+// ever. In the end all have the notices of all, which they judge alike, and have taken what was still on its way: for that alone
+// memory is needed, as much as one message has, and who lacks it ends all (MPI_Abort). An error that all throw, after messages
+// that say so, is told apart from one that is not shared: each gets as far as it can, whatever notices come before.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,8 @@ public:
     int rank() const { return rank_; }
     int ranks() const { return ranks_; }
 
-    // Up to 2 * ranks() of them, then wait for all: what is sent and received must stay until then, so nothing may throw in between.
+    // Up to 2 * ranks() of them, then wait for all: what is sent and received must stay until then, so nothing may throw in
+    // between.
     void send(const void *data, int count, MPI_Datatype type, int to);
     void receive(void *data, int count, MPI_Datatype type, int from);
     void wait();
@@ -97,6 +98,7 @@ private:
 
     MPI_Comm comm_;
     bool begun_ = false;
+    int at_end_ = MPI_KEYVAL_INVALID; // attribute by which MPI_Finalize ends the waiting for notices
     int rank_ = 0, ranks_ = 1;
     std::vector<Peer> peers_;
     std::vector<MPI_Request> requests_, end_requests_;

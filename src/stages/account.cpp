@@ -178,6 +178,8 @@ template <bool Adjoint> void close_books(World &world) {
     ledger.side_walls += total.side_walls;
 
     BlockRange range = range_of_blocks(world);
+    // The step's last message: from here to the callback nothing may allocate. Who failed would wait for all to hear of it, and
+    // others may be in the callback already, in a call of MPI that waits for this one.
     if (world.crossing)
         combine_books(world, range, total);
     world.walls.take_loads();

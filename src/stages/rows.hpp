@@ -58,8 +58,8 @@ struct Clusters {
     GP_INLINE Lanes seen(const Lanes &w, int64_t k) const { return seen_by_lanes(w, seen_by[k]); }
 };
 
-// Calls body(first, last) for runs of clusters of what is awake: for stages that keep no sum of a block. In halves of blocks, so that
-// of the sixteen that a thousand particles are no thread waits for long, and in as few calls as may be.
+// Calls body(first, last) for runs of clusters of what is awake: for stages that keep no sum of a block. In halves of blocks, so
+// that of the sixteen that a thousand particles are no thread waits for long, and in as few calls as may be.
 template <class Body> void for_each_awake_cluster_run(const World &world, const Body &body) {
     const Sleep &s = world.sleep;
     const int32_t *of_block = world.clusters.cluster_of_block.data();

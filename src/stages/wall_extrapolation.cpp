@@ -106,13 +106,13 @@ template <class Sums, class Body> void for_each_ghost(const World &world, const 
 // be felt a horizon ahead: 1.66 rho c v in a block that falls on a floor, for 1.27, energy from the floor in columns of few grains,
 // 1.35 rho g H in single grains of a collapse's front, for 1.2.
 //
-// With less a wall is a spring of its own: the part of the first rows' compression that their density does not tell takes p u_n from
-// what comes nearer, and gives it to what goes away. A bowl swings on it, of 5 cm radius, of 96 plates and 2400 grains, in its lowest
-// wave (93 % of the kinetic energy is in v = a cos(pi r / 2R), 59 Hz): 2.4e-4 of weight times radius comes back in all, 3e-6 with 1.
-// Of the friction 2e-7 comes back. 1 where p is well above what a blow by u_n brings, the rest of the ratio being
-// 1 / (1 + (p / (k rho c u_n))^2) of its .75, gives back 3e-6, 7e-6, 6e-5 with k = 4, 8, 16, and single grains of the block bear 1.34,
-// 1.22 rho c v with k = 3, 8; but a layer on 20 degrees, below yield, between walls then moves by .1 dl for less than .05, and a
-// collapse with 25.5 and 36.5 degrees is 2.2 % lower at .42 s.
+// With less a wall is a spring of its own: the part of the first rows' compression that their density does not tell takes p u_n
+// from what comes nearer, and gives it to what goes away. A bowl swings on it, of 5 cm radius, of 96 plates and 2400 grains, in its
+// lowest wave (93 % of the kinetic energy is in v = a cos(pi r / 2R), 59 Hz): 2.4e-4 of weight times radius comes back in all,
+// 3e-6 with 1. Of the friction 2e-7 comes back. 1 where p is well above what a blow by u_n brings, the rest of the ratio being
+// 1 / (1 + (p / (k rho c u_n))^2) of its .75, gives back 3e-6, 7e-6, 6e-5 with k = 4, 8, 16, and single grains of the block bear
+// 1.34, 1.22 rho c v with k = 3, 8; but a layer on 20 degrees, below yield, between walls then moves by .1 dl for less than .05,
+// and a collapse with 25.5 and 36.5 degrees is 2.2 % lower at .42 s.
 constexpr double steepest_tangential = 0.5, normal_ratio = 0.25;
 
 // Sheared: ghosts of a rough plate carry the shear on through its surface. Else they move with the plate along it: the
