@@ -171,7 +171,7 @@ def test_run_plot_animate_compare(python, scene_file, tmp_path):
     (("run", "nothing.toml"), 2, "nothing.toml: cannot be read"),
     (("plot", "nothing.h5"), 1, "nothing.h5: there is no such file"),
     (("plot", "scene.toml"), 1, "scene.toml: is no HDF5 file"),
-    (("run", "scene.toml", "--spacing", "-1"), 2, "gp_config.spacing = -1"),
+    (("run", "scene.toml", "--spacing", "-1"), 2, "--spacing -1: expected a number from 1e-09 to 1e+09"),
     (("run",), 2, "the following arguments are required: scene"),
     (("walk",), 2, "invalid choice: 'walk'"),
 ])
