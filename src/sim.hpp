@@ -87,6 +87,7 @@ private:
     std::vector<std::string> take_step(); // or a piece of it after halving; returns what the log is to be told
     [[noreturn]] void leave_step();
     void set_world(std::unique_ptr<World> world);
+    void know_whole(std::unique_ptr<World> whole);   // of this epoch
     gp_status advance(gp_sim *handle, double t_end); // one step, output and callback
 
     std::unique_ptr<World> begin_world() const;

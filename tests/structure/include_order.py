@@ -25,7 +25,7 @@ LAYERS = [
     ["stages/*"],
     ["whole"],
     ["plan", "plan_implicit", "plan_paper", "stage_rows", "mistakes", "warnings"],
-    ["sim"],
+    ["sim", "sim_scene"],
     ["sort_by_x", "fields", "diagnostics", "diagnostics_mass", "diagnostics_rest", "diagnostics_shape", "diagnostics_surface", "io/*"],
     ["handle"],
     ["api", "api_read", "load_symbol", "without_mpi", "granperi/gp_mpi", "mpi/*"],
