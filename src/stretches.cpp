@@ -14,6 +14,11 @@ int64_t sum_over(Crossing &crossing, int64_t own) {
     return static_cast<int64_t>(all);
 }
 
+// What each process may send of a stretch.
+int64_t share_of_stretch(const Crossing &crossing) {
+    return std::max<int64_t>(1, stretch_size / crossing.ranks());
+}
+
 } // namespace
 
 int64_t count_of_all(const World &world) {
@@ -29,7 +34,7 @@ void key_of_cell(const World &part, int64_t k, int64_t columns, double *key) {
 
 // In each turn all tell up to where they could send, and send up to the least of that.
 void take_in_order(Crossing &crossing, const OrderedRows &own, const TakeRows &body) {
-    const int64_t most = std::max<int64_t>(1, stretch_size / crossing.ranks());
+    const int64_t most = share_of_stretch(crossing);
     const std::size_t numbers = static_cast<std::size_t>(own.numbers) + key_numbers;
     const auto before = [](const double *a, const double *b) {
         return std::lexicographical_compare(a, a + key_numbers, b, b + key_numbers);
@@ -74,7 +79,7 @@ void take_in_order(Crossing &crossing, const OrderedRows &own, const TakeRows &b
 }
 
 void for_each_turn(Crossing &crossing, int64_t count, const std::function<void(int64_t begin, int64_t end)> &body) {
-    const int64_t most = std::max<int64_t>(1, stretch_size / crossing.ranks());
+    const int64_t most = share_of_stretch(crossing);
     const int64_t own = (count + most - 1) / most;
     auto turns = static_cast<double>(own);
     crossing.combine(&turns, 1, nullptr, 0);

@@ -8,19 +8,23 @@ namespace gp::io {
 
 namespace {
 
+// Calls body(column, number) for each parameter of a material, whose column it is in the table.
+template <class Table, class Material, class Body> void for_each_parameter(Table &t, Material &m, const Body &body) {
+    body(t.grain_density, m.grain_density);
+    body(t.volume_fraction, m.volume_fraction);
+    body(t.grain_diameter, m.grain_diameter);
+    body(t.mu_s, m.mu_s);
+    body(t.mu_2, m.mu_2);
+    body(t.i0, m.i0);
+    body(t.nonlocal_amplitude, m.nonlocal_amplitude);
+    body(t.fluidity_time, m.fluidity_time);
+    body(t.k0, m.k0);
+}
+
 void write_materials(CheckpointWriter &file, const Scene &scene) {
     MaterialTable materials;
-    for (const gp_material &m : scene.materials()) {
-        materials.grain_density.push_back(m.grain_density);
-        materials.volume_fraction.push_back(m.volume_fraction);
-        materials.grain_diameter.push_back(m.grain_diameter);
-        materials.mu_s.push_back(m.mu_s);
-        materials.mu_2.push_back(m.mu_2);
-        materials.i0.push_back(m.i0);
-        materials.nonlocal_amplitude.push_back(m.nonlocal_amplitude);
-        materials.fluidity_time.push_back(m.fluidity_time);
-        materials.k0.push_back(m.k0);
-    }
+    for (const gp_material &m : scene.materials())
+        for_each_parameter(materials, m, [](auto &column, double number) { column.push_back(number); });
     exchange_materials(file, materials);
 }
 
@@ -28,21 +32,11 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
     MaterialTable t;
     exchange_materials(file, t);
     const std::size_t n = t.grain_density.size();
-    for (const auto *array : {&t.volume_fraction, &t.grain_diameter, &t.mu_s, &t.mu_2, &t.i0, &t.nonlocal_amplitude,
-                              &t.fluidity_time, &t.k0})
-        check.same_size("materials", *array, n);
+    gp_material m = default_material();
+    for_each_parameter(t, m, [&](const auto &column, double) { check.same_size("materials", column, n); });
     check.require(n > 0, "no material 0");
     for (std::size_t k = 1; k < n; ++k) { // the first one is there
-        gp_material m = default_material();
-        m.grain_density = t.grain_density[k];
-        m.volume_fraction = t.volume_fraction[k];
-        m.grain_diameter = t.grain_diameter[k];
-        m.mu_s = t.mu_s[k];
-        m.mu_2 = t.mu_2[k];
-        m.i0 = t.i0[k];
-        m.nonlocal_amplitude = t.nonlocal_amplitude[k];
-        m.fluidity_time = t.fluidity_time[k];
-        m.k0 = t.k0[k];
+        for_each_parameter(t, m, [&](const auto &column, double &number) { number = column[k]; });
         sim.add_material(m);
     }
 }

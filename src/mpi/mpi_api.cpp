@@ -24,13 +24,8 @@ void require_communicator(MPI_Comm comm) {
         throw make_error(GP_E_ARGUMENT, "comm = MPI_COMM_NULL: expected a communicator");
 }
 
-} // namespace
-} // namespace gp
-
-extern "C" {
-
-gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim) {
-    using namespace gp;
+// make(crossing) on all; where one of them cannot, none has a simulation.
+template <class Make> gp_status make_together(MPI_Comm comm, gp_sim **sim, const Make &make) {
     return guard([&] {
         require_pointer("sim", sim);
         *sim = nullptr;
@@ -38,9 +33,7 @@ gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim) {
         const auto crossing = mpi::MpiCrossing::between_all_of(comm);
         std::unique_ptr<gp_sim> made;
         together(crossing.get(), [&] {
-            require_level();
-            const gp_config whole = complete(config, default_config(GP_PRESET_DEFAULT), "gp_config");
-            made = std::make_unique<gp_sim>(whole, crossing);
+            made = make(crossing);
             return GP_OK;
         });
         *sim = made.release();
@@ -48,28 +41,34 @@ gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim) {
     });
 }
 
+} // namespace
+} // namespace gp
+
+extern "C" {
+
+gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim) {
+    using namespace gp;
+    return make_together(comm, sim, [&](const std::shared_ptr<mpi::MpiCrossing> &crossing) {
+        require_level();
+        const gp_config whole = complete(config, default_config(GP_PRESET_DEFAULT), "gp_config");
+        return std::make_unique<gp_sim>(whole, crossing);
+    });
+}
+
 gp_status gp_load_mpi(const char *path, MPI_Comm comm, gp_sim **sim) {
     using namespace gp;
-    return guard([&] {
-        require_pointer("sim", sim);
-        *sim = nullptr;
-        require_communicator(comm);
-        const auto crossing = mpi::MpiCrossing::between_all_of(comm);
+    return make_together(comm, sim, [&](const std::shared_ptr<mpi::MpiCrossing> &crossing) {
+        require_pointer("path", path);
+        require_level();
         std::unique_ptr<gp_sim> loaded;
-        together(crossing.get(), [&] {
-            require_pointer("path", path);
-            require_level();
-            const auto create = [&](const gp_config &config) -> Sim & {
-                loaded = std::make_unique<gp_sim>(config, crossing);
-                return loaded->sim;
-            };
-            io::OutputPosition left_off;
-            io::load_checkpoint(path, create, left_off);
-            loaded->left_off = std::move(left_off);
-            return GP_OK;
-        });
-        *sim = loaded.release();
-        return GP_OK;
+        const auto create = [&](const gp_config &config) -> Sim & {
+            loaded = std::make_unique<gp_sim>(config, crossing);
+            return loaded->sim;
+        };
+        io::OutputPosition left_off;
+        io::load_checkpoint(path, create, left_off);
+        loaded->left_off = std::move(left_off);
+        return loaded;
     });
 }
 

@@ -10,7 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Callable, Iterator, Mapping, Sequence
 
 from ._errors import ArgumentError, number, whole
-from ._report_growth import Growth, Next, two_digits
+from ._report_growth import Growth, Next, missing, two_digits
 from ._report_ladder import ROUNDED, Cost, Sides, given
 from ._report_result import ASKED, Report, names_of
 from ._report_runs import Measured, OutOfTime, Quantity, checked, measure, standard
@@ -250,9 +250,7 @@ def report(scene: "Scene | str | os.PathLike[str]", budget: float = 60.0, accura
         with study.listening():
             start = _start(scene, named[-1] if named else scene.config.spacing, own)
         ladder = _ladder(study, sides, named, seeds)
-        jobs = [(h, seed) for seed in range(1, seeds + 1) for h in ladder]
-        done = study.done()
-        study.run([job for job in jobs if job not in done])
+        study.run(missing(ladder, seeds, study.done()))
         if len(study.enough()) < 3:
             raise ArgumentError(f"budget = {budget:g} s: not two runs at each of three spacings were done: expected some "
                                 f"{1.3 * budget - 0.3 * study.left():.2g} s, or {1.3 * 2 * sum(map(study.seconds, ladder)):.2g} s; "

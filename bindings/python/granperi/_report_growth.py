@@ -68,7 +68,7 @@ class Growth:
         """Rather fewer runs than none at all, rather a smaller step than none."""
         for runs in range(self.seeds, 1, -1):
             for spacing in self.sides.finer(found.spacings[-1]):
-                jobs = _missing([spacing], runs, done)
+                jobs = missing([spacing], runs, done)
                 if self.seconds(jobs) <= room:
                     return jobs
         return []
@@ -77,20 +77,20 @@ class Growth:
         """Up to twice as many runs of each spacing."""
         most = max(len(found._runs_at(h)) for h in found.spacings)
         for runs in range(min(2 * most, MOST_SEEDS), most, -1):
-            jobs = _missing(found.spacings, runs, done)
+            jobs = missing(found.spacings, runs, done)
             if self.seconds(jobs) <= room:
                 return jobs
         return []
 
     def _no_room(self, found: Report, done: Collection[tuple[float, int]], used: float) -> str:
-        jobs = {h: _missing([h], 2, done) for h in self.sides.finer(found.spacings[-1])}
+        jobs = {h: missing([h], 2, done) for h in self.sides.finer(found.spacings[-1])}
         spacing = min(jobs, key=lambda h: self.seconds(jobs[h]))
-        whole = self.seconds(_missing([*found.spacings, spacing], self.seeds, done))  # the coarser ones would be complete, too
+        whole = self.seconds(missing([*found.spacings, spacing], self.seeds, done))  # the coarser ones would be complete, too
         return (f"a finer spacing is not sure to fit into what is left: two runs at {spacing:.3g} m take some "
                 f"{two_digits(self.seconds(jobs[spacing]))} s, for which a budget of {two_digits(1.2 * (used + whole))} s has room")
 
 
-def _missing(spacings: Sequence[float], runs: int, done: Collection[tuple[float, int]]) -> Jobs:
+def missing(spacings: Sequence[float], runs: int, done: Collection[tuple[float, int]]) -> Jobs:
     """What is not there yet of so many runs of each spacing; one of each after the other, as the time may be over before."""
     return [(h, seed) for seed in range(1, runs + 1) for h in spacings if (h, seed) not in done]
 

@@ -98,8 +98,8 @@ def test_equal_values_have_no_error():
 
 def test_errors_of_real_scenes_hold_as_often_as_is_said():
     """docs/report.md, by three reports of each of its 60 cases in place of 16: of 180, not independent, the shares vary by some
-    2 %. 9 in 10 are to hold, half to be at most three times too wide; CPU times are forecast within 30 %, but for a = 0.5, whose runs of one spacing take
-times that differ by 1.7 themselves, as they fall asleep sooner or later."""
+    2 %. 9 in 10 are to hold, half to be at most three times too wide; CPU times are forecast within 30 %, but for a = 0.5,
+    whose runs of one spacing take times that differ by 1.7 themselves, as they fall asleep sooner or later."""
     sys.path.insert(0, str(ROOT / "bench" / "report"))
     import coverage
     import pool
