@@ -1,4 +1,5 @@
-// How crowded what flows is: more than its density knows, as if no free surface were near. Collisions go by it (collide.cpp).
+// How crowded what flows is: more than its density knows, as if no free surface were near. Collisions go by it, and by whether it
+// flows at all (collide.cpp).
 //
 // What N lacks for the surface follows from sum w r. The force sums that for its own sake, over the same neighbours as the
 // gradient N, so it is finished there: with two sums more the gradient took 1.08 to 1.1 times as long.
@@ -14,6 +15,9 @@ namespace gp::stages {
 // Of the squared first moment in the row at a free surface: below it is taken to be that of disorder, about a hundredth in the
 // middle of sheared layers.
 constexpr double moment_of_disorder = 0.04;
+
+// Crowding of what does not flow: it is inside its yield surface.
+constexpr float does_not_flow = -1e30F;
 
 struct CrowdingView {
     const double *spaced, *known; // Particles
@@ -41,7 +45,7 @@ struct CrowdingView {
         for (int64_t i = places.at[0]; i < last; ++i) {
             const auto l = static_cast<int>(i - places.at[0]);
             const auto missing = static_cast<float>(lacking[l]);
-            crowded[i] = static_cast<float>(n[l] > 0 ? n[l] + inverse_number * missing - dense[l] : -dense[l]);
+            crowded[i] = static_cast<float>(n[l] > 0 ? n[l] + inverse_number * missing - dense[l] : does_not_flow);
         }
     }
 };
