@@ -6,24 +6,48 @@
 
 namespace gp {
 
-// Calls body(block, begin, end) for the blocks of particles that are awake. (Loops of their own where nothing sleeps: one for
-// both had an instruction more for each particle.)
-template <class Body> void for_each_awake_block(const World &world, const Body &body) {
+// The span of a cell (sleep.hpp), by its column of spans and its row.
+constexpr int64_t span_columns = 16;
+inline Cell span_at(const Cell &cell) {
+    const int64_t left = cell.column < 0 ? span_columns - 1 : 0; // a division rounds to zero
+    return {(cell.column - left) / span_columns, cell.row};
+}
+// The cell that says whose a cell is: with sleep in use that of the middle of its span.
+inline Cell cell_of_owner(const World &world, const Cell &cell) {
+    if (!world.sleep.in_use)
+        return cell;
+    const Cell span = span_at(cell);
+    return {span_columns * span.column + span_columns / 2, span.row};
+}
+
+// Calls body(span, begin, end) for the first `count` of lit, or of all where none sleeps.
+template <class Body> void for_each_chosen_span(const World &world, int64_t count, const Body &body) {
     const Sleep &s = world.sleep;
-    if (s.some)
-        for_each_chosen_block(world.threads, world.particles.count, s.lit.data(), s.awake, body);
-    else
+    const int64_t *const starts = world.clusters.starts.data();
+    for_each_share(world.threads, s.some ? count : static_cast<int64_t>(world.clusters.starts.size()) - 1,
+                   [&](int64_t begin, int64_t end) {
+                       for (int64_t k = begin; k < end; ++k) {
+                           const int64_t span = s.some ? s.lit[k] : k;
+                           body(span, starts[span], starts[span + 1]);
+                       }
+                   });
+}
+
+// Calls body(block, begin, end) for the blocks of particles that are awake. (Loops of their own without sleep: one for both had an
+// instruction more for each particle.)
+template <class Body> void for_each_awake_block(const World &world, const Body &body) {
+    if (world.clusters.starts.empty())
         for_each_block(world.threads, world.particles.count, body);
+    else
+        for_each_chosen_span(world, world.sleep.awake, body);
 }
 
 // And of those asleep that these see: what neighbours read of a particle and no pair loop makes.
 template <class Body> void for_each_seen_block(const World &world, const Body &body) {
-    const Sleep &s = world.sleep;
-    if (s.some)
-        for_each_chosen_block(world.threads, world.particles.count, s.lit.data(), static_cast<int64_t>(s.lit.size()),
-                              body);
-    else
+    if (world.clusters.starts.empty())
         for_each_block(world.threads, world.particles.count, body);
+    else
+        for_each_chosen_span(world, static_cast<int64_t>(world.sleep.lit.size()), body);
 }
 
 // Makes fields of all that is seen: make(begin, end). They follow from what images have, too, so that those of other processes'

@@ -107,7 +107,7 @@ public:
 
     void find() {
         measure_room();
-        const int64_t blocks = block_count(p_.count);
+        const int64_t blocks = list_.blocks();
         const int64_t wave = blocks_of_thread * threads_;
         const bool hidden = !barriers_.segments.empty();
         int64_t most = 0;
@@ -143,7 +143,7 @@ private:
     // before that is told.
     void measure_room() {
         Field<int64_t> &room = list_.draft.room;
-        const int64_t blocks = block_count(p_.count);
+        const int64_t blocks = list_.blocks();
         room.resize(blocks + 1);
         room[0] = 0;
         for_each_block<1>(threads_, blocks, [&](int64_t block, int64_t, int64_t) {

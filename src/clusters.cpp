@@ -10,7 +10,8 @@ namespace gp {
 
 int64_t ClusterList::bytes() const {
     std::size_t total = (first.capacity() + cluster_of_block.capacity() + draft.index.capacity()) * sizeof(int32_t) +
-                        draft.room.capacity() * sizeof(int64_t) + partly_seen.capacity() + draft.seen_by.capacity();
+                        (draft.room.capacity() + starts.capacity()) * sizeof(int64_t) + partly_seen.capacity() +
+                        draft.seen_by.capacity();
     for (const ClusterRows *rows : {&all, &close})
         total += rows->start.capacity() * sizeof(int64_t) + rows->step.capacity() * sizeof(int16_t) +
                  rows->seen_by.capacity();
@@ -41,19 +42,27 @@ void for_each_cluster(const Particles &p, const CellGrid &grid, double widest, i
     }
 }
 
+template <class Body> void for_each_block_of(const ClusterList &list, int threads, int64_t count, const Body &body) {
+    if (list.starts.empty())
+        for_each_block(threads, count, body);
+    else
+        for_each_block<1>(threads, static_cast<int64_t>(list.starts.size()) - 1,
+                          [&](int64_t block, int64_t, int64_t) { body(block, list.starts[block], list.starts[block + 1]); });
+}
+
 void cut(const Particles &p, const CellGrid &grid, double radius, int threads, ClusterList &list) {
     const double widest = widest_cluster * radius;
     Field<int32_t> &of_block = list.cluster_of_block;
-    of_block.resize(block_count(p.count) + 1);
+    of_block.resize(list.starts.empty() ? block_count(p.count) + 1 : static_cast<int64_t>(list.starts.size()));
     of_block[0] = 0;
-    for_each_block(threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_block_of(list, threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         int32_t clusters = 0;
         for_each_cluster(p, grid, widest, begin, end, [&](int32_t) { ++clusters; });
         of_block[block + 1] = clusters;
     });
     std::partial_sum(of_block.begin(), of_block.end(), of_block.begin());
     list.first.resize(of_block.back() + 1);
-    for_each_block(threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
+    for_each_block_of(list, threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         int32_t *next = list.first.data() + of_block[block];
         for_each_cluster(p, grid, widest, begin, end, [&](int32_t i) { *next++ = i; });
     });

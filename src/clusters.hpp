@@ -34,6 +34,8 @@ struct ClusterList {
     ClusterRows all, close;
     Field<int32_t>
         cluster_of_block; // the first one of each block of particles; clusters do not reach over a block's end
+    // Blocks that are not all of block_size: the first particle of each, and their number; else empty.
+    Field<int64_t> starts;
 
     Field<uint8_t> partly_seen; // by plates with material behind them; empty: there are none
 
@@ -45,6 +47,7 @@ struct ClusterList {
     } draft;
 
     int64_t count() const { return first.empty() ? 0 : static_cast<int64_t>(first.size()) - 1; }
+    int64_t blocks() const { return static_cast<int64_t>(cluster_of_block.size()) - 1; } // of lists that have been made
     int64_t bytes() const;
 };
 

@@ -20,7 +20,8 @@ class StateSums {
 public:
     explicit StateSums(const World &world) : energies_(world) {}
 
-    void add(const World &world) {
+    // asleep: of each particle, or NULL.
+    void add(const World &world, const char *asleep) {
         const Particles &p = world.particles;
         energies_.add(world);
         centre_.add(world);
@@ -39,11 +40,14 @@ public:
         momentum_y_ = momentum_y;
         speed2_ = speed2;
         count_ += p.count;
+        if (asleep)
+            asleep_ += std::count(asleep, asleep + p.count, 1);
     }
 
     void hand_out(const World &world, gp_state &s) const {
         const Energies &e = energies_.all();
         s.n_particles = count_;
+        s.n_awake = count_ - asleep_;
         s.kinetic = e.kinetic;
         s.potential = e.potential;
         s.elastic = e.elastic;
@@ -63,7 +67,7 @@ private:
     EnergySums energies_;
     CentreSums centre_;
     BoxOfAll box_;
-    int64_t count_ = 0;
+    int64_t count_ = 0, asleep_ = 0;
     double momentum_x_ = 0, momentum_y_ = 0, speed2_ = 0, most_speed2_ = 0, most_pressure_ = 0;
 };
 
@@ -98,10 +102,11 @@ gp_state measure_sums(const World &world) {
     s.implicit_residual = world.viscous.last_residual;
 
     StateSums sums(world);
-    for_each_stretch(world, {}, [&](const World &stretch, const char *) { sums.add(stretch); });
+    const std::vector<char> asleep(p.asleep.begin(), p.asleep.begin() + (p.asleep.empty() ? 0 : p.count));
+    for_each_stretch(world, asleep, [&](const World &stretch, const char *flags) {
+        sums.add(stretch, world.sleep.in_use ? flags : nullptr);
+    });
     sums.hand_out(world, s);
-    // Of several processes none sleeps.
-    s.n_awake = s.n_particles - std::count(p.asleep.begin(), p.asleep.begin() + (p.asleep.empty() ? 0 : p.count), 1);
 
     s.collisions = world.collisions;
     s.sound_speed = world.constants.sound_speed;

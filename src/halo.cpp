@@ -152,6 +152,38 @@ void Halo::copy_motion(Particles &p) {
         });
 }
 
+void Halo::copy_motion(Particles &p, Sleep &sleep) {
+    exchange(
+        5,
+        [&](int32_t i, double shift, double *out) {
+            out[0] = p.x[i] + shift;
+            out[1] = p.y[i];
+            out[2] = p.vx[i];
+            out[3] = p.vy[i];
+            out[4] = sleep.restless[sleep.span_of[i]];
+        },
+        [&](int32_t j, const double *in) {
+            p.x[j] = in[0];
+            p.y[j] = in[1];
+            p.vx[j] = in[2];
+            p.vy[j] = in[3];
+            sleep.restless[sleep.span_of[j]] = static_cast<uint8_t>(in[4]);
+        });
+}
+
+void Halo::copy_rest(Sleep &sleep) {
+    exchange(
+        2,
+        [&](int32_t i, double, double *out) {
+            out[0] = sleep.restless[sleep.span_of[i]];
+            out[1] = static_cast<double>(sleep.plates[sleep.span_of[i]]);
+        },
+        [&](int32_t j, const double *in) {
+            sleep.restless[sleep.span_of[j]] = static_cast<uint8_t>(in[0]);
+            sleep.plates[sleep.span_of[j]] = static_cast<uint64_t>(in[1]);
+        });
+}
+
 int64_t Halo::bytes() const {
     return static_cast<int64_t>((source_.capacity() + column_.capacity() + place_.capacity()) * sizeof(int32_t) +
                                 (shift_.capacity() + out_.capacity() + in_.capacity()) * sizeof(double) +

@@ -10,6 +10,7 @@
 #include "geometry.hpp"
 #include "neighbors.hpp"
 #include "particles.hpp"
+#include "sleep.hpp"
 
 namespace gp {
 
@@ -31,6 +32,8 @@ public:
     void copy(Field<uint8_t> &field);
     void copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners, Field<float> &crowded);
     void copy_motion(Particles &particles);
+    void copy_motion(Particles &particles, Sleep &sleep); // and whose spans are restless
+    void copy_rest(Sleep &sleep);                         // that, and which plates they touch
 
     int64_t bytes() const;
 

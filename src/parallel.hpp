@@ -54,15 +54,4 @@ template <int64_t Size = block_size, class Body> void for_each_block(int threads
     });
 }
 
-// For some of them.
-template <int64_t Size = block_size, class Body>
-void for_each_chosen_block(int threads, int64_t n, const int32_t *chosen, int64_t count, const Body &body) {
-    for_each_share(threads, count, [&](int64_t begin, int64_t end) {
-        for (int64_t k = begin; k < end; ++k) {
-            const int64_t block = chosen[k];
-            body(block, block * Size, std::min(n, (block + 1) * Size));
-        }
-    });
-}
-
 } // namespace gp

@@ -1,6 +1,7 @@
 #include "particles.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "parallel.hpp"
 
@@ -48,8 +49,6 @@ void Particles::make_room(int64_t images) {
         field.resize(size);
     };
     grow(column);
-    grow(asleep);
-    grow(scratch_uint8_);
     // The gradient and its like are not read of neighbours, but their memory changes places with that of fields that are.
     for (Field<double> *field :
          {&x,      &y,   &vx,       &vy,   &density,      &pressure, &sxx,        &sxy,         &lxx, &lxy,
@@ -70,6 +69,38 @@ void Particles::resize(int64_t n) {
           &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &fluid_pull, &fluid_pace, &bearing_flow})
         if (!field->empty())
             field->resize(size);
+    if (repose.empty())
+        return;
+    repose.resize(size);
+    scratch_repose_.resize(size);
+    asleep.resize(size);
+    scratch_uint8_.resize(size);
+}
+
+void Particles::put_rest(int64_t i, double *out) const {
+    const Repose &r = repose[i];
+    const std::array<double, rest_numbers> numbers = {static_cast<double>(asleep[i]),
+                                                      r.quiet_for,
+                                                      r.way_x,
+                                                      r.way_y,
+                                                      r.pressure,
+                                                      r.sxx,
+                                                      r.sxy,
+                                                      r.fluidity,
+                                                      r.gxx,
+                                                      r.gxy,
+                                                      r.gyy,
+                                                      r.stressed};
+    std::copy(numbers.begin(), numbers.end(), out);
+}
+
+void Particles::take_rest(int64_t i, const double *in) {
+    Repose &r = repose[i];
+    asleep[i] = static_cast<uint8_t>(*in++);
+    for (float *number : {&r.quiet_for, &r.way_x, &r.way_y, &r.pressure, &r.sxx, &r.sxy, &r.fluidity})
+        *number = static_cast<float>(*in++);
+    for (double *number : {&r.gxx, &r.gxy, &r.gyy, &r.stressed})
+        *number = *in++;
 }
 
 void Particles::reorder(const Field<int32_t> &old_index, int threads) {

@@ -102,6 +102,11 @@ struct Particles {
     // Makes room for images of particles behind the real ones (periodic.hpp) in every field that neighbours read.
     void make_room(int64_t images);
 
+    // What a particle of a scene with sleep carries beside its fields, as numbers.
+    static constexpr int rest_numbers = 12;
+    void put_rest(int64_t i, double *out) const;
+    void take_rest(int64_t i, const double *in);
+
     // Another number of particles, in every field that is in use: those of a part of a world come and go.
     void resize(int64_t n);
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
+#include "awake.hpp"
 #include "error.hpp"
 
 namespace gp {
@@ -87,6 +89,9 @@ void combine_books(World &world, BlockRange &range, BlockSums &total) {
     sums.put(total.plastic, energy);
     sums.put(total.unbalanced, mass);
     sums.wholes.push_back(total.collisions);
+    Sleep &sleep = world.sleep;
+    if (sleep.in_use)
+        sums.wholes.push_back(std::count(sleep.asleep.begin(), sleep.asleep.end(), 0));
     world.crossing->combine(largest, 5, sums.wholes.data(), static_cast<int>(sums.wholes.size()));
     range = {-largest[0], largest[1], -largest[2], largest[3]};
     total.densest = largest[4];
@@ -98,6 +103,10 @@ void combine_books(World &world, BlockRange &range, BlockSums &total) {
     total.kinetic = sums.take(energy);
     total.plastic = sums.take(energy);
     total.unbalanced = sums.take(mass);
+    if (sleep.in_use) {
+        sleep.awake_of_all = static_cast<int64_t>(sums.wholes.back());
+        sums.wholes.pop_back();
+    }
     total.collisions = static_cast<int64_t>(sums.wholes.back());
 }
 
@@ -161,7 +170,7 @@ void deal_out_anew(World &world, const CellFrame &frame) {
     Particles &p = world.particles;
     std::vector<double> x(p.count), y(p.count);
     for (int64_t i = 0; i < p.count; ++i) {
-        const Vector middle = frame.middle_of(frame.cell_of(p.x[i], p.y[i]));
+        const Vector middle = frame.middle_of(cell_of_owner(world, frame.cell_of(p.x[i], p.y[i])));
         x[i] = middle.x();
         y[i] = middle.y();
     }
@@ -183,13 +192,53 @@ bool is_uneven(World &world) {
 
 } // namespace
 
-std::vector<Field<double> *> carried_fields(Particles &p) {
-    std::vector<Field<double> *> fields = {&p.x,   &p.y,   &p.vx,  &p.vy,  &p.density, &p.pressure,
-                                           &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx,     &p.lyy};
+Carried::Carried(Particles &p)
+    : particles_(p), fields_({&p.x, &p.y, &p.vx, &p.vy, &p.density, &p.pressure, &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx,
+                              &p.lyy}),
+      rests_(!p.repose.empty()) {
     if (!p.fluidity.empty())
-        fields.push_back(&p.fluidity);
-    return fields;
+        fields_.push_back(&p.fluidity);
 }
+
+void Carried::put(int64_t i, double *out) const {
+    for (const Field<double> *field : fields_)
+        *out++ = (*field)[i];
+    if (rests_)
+        particles_.put_rest(i, out);
+}
+
+void Carried::take(int64_t i, const double *in) const {
+    for (Field<double> *field : fields_)
+        (*field)[i] = *in++;
+    if (rests_)
+        particles_.take_rest(i, in);
+}
+
+namespace {
+
+// What particles that go elsewhere press plates with while they sleep goes with them. left: their ids, and to whom.
+void send_loads(World &world, std::vector<std::pair<int64_t, int>> &left) {
+    std::sort(left.begin(), left.end());
+    std::vector<MeanLoad> kept;
+    std::vector<std::vector<double>> out(static_cast<std::size_t>(world.crossing->ranks())), in;
+    for (const MeanLoad &load : world.sleep.loads) {
+        const auto found = std::lower_bound(left.begin(), left.end(), std::pair<int64_t, int>(load.id, 0));
+        if (found == left.end() || found->first != load.id) {
+            kept.push_back(load);
+            continue;
+        }
+        std::vector<double> &to = out[found->second];
+        to.resize(to.size() + MeanLoad::numbers);
+        load.put(&to[to.size() - MeanLoad::numbers]);
+    }
+    world.crossing->deal(out, in);
+    for (const std::vector<double> &from : in)
+        for (std::size_t at = 0; at < from.size(); at += MeanLoad::numbers)
+            kept.push_back(MeanLoad::of(&from[at]));
+    world.sleep.loads.swap(kept);
+}
+
+} // namespace
 
 void go_to_owners(World &world, const CellFrame &frame) {
     Crossing &crossing = *world.crossing;
@@ -200,43 +249,51 @@ void go_to_owners(World &world, const CellFrame &frame) {
         share = {};
         share.dealt = true;
     }
-    const std::vector<Field<double> *> fields = carried_fields(p);
+    const Carried carried(p);
+    const std::size_t numbers = carried.numbers() + 2;
+    std::vector<double> moved(carried.numbers());
+    std::vector<std::pair<int64_t, int>> left; // only with sleep
     std::vector<std::vector<double>> out(static_cast<std::size_t>(crossing.ranks())), in;
     int64_t kept = 0;
     for (int64_t i = 0; i < p.count; ++i) {
-        const Vector middle = frame.middle_of(frame.cell_of(p.x[i], p.y[i]));
+        const Vector middle = frame.middle_of(cell_of_owner(world, frame.cell_of(p.x[i], p.y[i])));
         const int owner = crossing.owner(middle.x(), middle.y());
         if (owner == crossing.rank()) {
             p.id[kept] = p.id[i];
             p.column[kept] = p.column[i];
-            for (Field<double> *field : fields)
-                (*field)[kept] = (*field)[i];
+            if (kept < i) {
+                carried.put(i, moved.data());
+                carried.take(kept, moved.data());
+            }
             ++kept;
             continue;
         }
         std::vector<double> &to = out[owner];
         to.push_back(static_cast<double>(p.id[i]));
         to.push_back(static_cast<double>(p.column[i]));
-        for (const Field<double> *field : fields)
-            to.push_back((*field)[i]);
+        to.resize(to.size() + carried.numbers());
+        carried.put(i, &to[to.size() - carried.numbers()]);
+        if (world.sleep.in_use)
+            left.emplace_back(p.id[i], owner);
     }
     crossing.deal(out, in);
-    const std::size_t numbers = fields.size() + 2;
+    if (world.sleep.in_use)
+        send_loads(world, left);
     int64_t count = kept;
     for (const std::vector<double> &from : in)
         count += static_cast<int64_t>(from.size() / numbers);
     resize_part(world, count);
     for (const std::vector<double> &from : in)
-        for (const double *r = from.data(), *end = r + from.size(); r != end; ++kept) {
-            p.id[kept] = static_cast<int64_t>(*r++);
-            p.column[kept] = static_cast<int32_t>(*r++);
-            for (Field<double> *field : fields)
-                (*field)[kept] = *r++;
+        for (const double *r = from.data(), *end = r + from.size(); r != end; r += numbers) {
+            p.id[kept] = static_cast<int64_t>(r[0]);
+            p.column[kept] = static_cast<int32_t>(r[1]);
+            carried.take(kept++, r + 2);
         }
 }
 
 void resize_part(World &world, int64_t count) {
     world.particles.resize(count);
+    world.clusters.starts.clear();
     const int64_t blocks = block_count(count);
     world.sums.assign(static_cast<std::size_t>(blocks), BlockSums());
     world.ranges.assign(static_cast<std::size_t>(blocks), BlockRange{INFINITY, -INFINITY, INFINITY, -INFINITY});

@@ -24,8 +24,19 @@ void combine_books(World &world, BlockRange &range, BlockSums &total);
 // Particles go to the process whose cells they are in. Now and then, when the work has become uneven, the cells are dealt out
 // anew.
 void go_to_owners(World &world, const CellFrame &frame);
-// The fields that go with a particle.
-std::vector<Field<double> *> carried_fields(Particles &particles);
+// What goes with a particle, as numbers: fields, and with sleep how long it has rested.
+class Carried {
+public:
+    explicit Carried(Particles &particles);
+    std::size_t numbers() const { return fields_.size() + (rests_ ? Particles::rest_numbers : 0); }
+    void put(int64_t i, double *out) const;
+    void take(int64_t i, const double *in) const;
+
+private:
+    Particles &particles_;
+    std::vector<Field<double> *> fields_;
+    bool rests_;
+};
 // Room for so many particles.
 void resize_part(World &world, int64_t count);
 

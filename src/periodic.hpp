@@ -35,6 +35,8 @@ public:
                          Field<float> &crowded) const;
     void copy_motion(Particles &particles) const; // positions and velocities
 
+    // The cell of the k-th image, of a part of a world.
+    const Cell &cell(int64_t k) const { return halo_->cell(cells_.order()[k]); }
     // The particle that an index of the neighbour lists stands for; not of a part of a world.
     int64_t source(int64_t index) const { return index < first_ ? index : source_[index - first_]; }
 

@@ -35,7 +35,7 @@ bool in_reach(const World &world) {
 }
 
 bool any_awake(const World &world) {
-    return !world.sleep.all();
+    return !world.sleep.idle;
 }
 
 bool awake_in_reach(const World &world) {
@@ -116,13 +116,13 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
          stages::collide, awake, all_sleep},
         {"wall_contact", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_contact, awake_near, no_work},
+        // reads velocity, stress; writes who rests, and the velocity of what falls asleep
+        {"sleep", sleep, "sleep is 1: what rests is left out", no_sleep, stages::sleep, awake, all_sleep},
         // reads position, velocity; writes those of the images
         {"update_images", t.particles && (t.periodic || t.parts),
          t.parts ? "other processes have particles, too" : "the scene is periodic in x", t.particles ? not_periodic : no_particles,
          stages::update_images, awake, all_sleep},
         {"account", t.particles, "energy ledger, loads, extremes", no_particles, stages::account, nullptr, ""},
-        // reads velocity, stress; writes who is awake, and the velocity of what falls asleep
-        {"sleep", sleep, "sleep is 1: what rests is left out", no_sleep, stages::sleep, awake, all_sleep},
     };
     // clang-format on
 }
@@ -281,7 +281,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                   world.images.bytes()));
     optional("viscous_system", t.scheme == Scheme::implicit, "the implicit solve's operators and vectors",
              "no implicit solve", world.viscous.bytes() + world.mirrors.bytes());
-    optional("sleep", t.sleep, "sleep is 1: how long it has rested, blocks and loads of what sleeps", "sleep is 0",
+    optional("sleep", t.sleep, "sleep is 1: how long it has rested, spans and loads of what sleeps", "sleep is 0",
              bytes_of_all(p.repose, p.asleep) + world.sleep.bytes());
     common("block_sums", bytes_of_all(world.sums, world.ranges));
     entries.push_back(field_entry("ghosts", t.plates && world.walls.in_reach(),

@@ -1,9 +1,12 @@
-// Who rests (gp_config.sleep): blocks of particles whose motion and change of stress have died away, and what the stages have
-// to do while they are left out. stages/sleep.cpp says when a block rests and when it wakes; awake.hpp has the loops over what
+// Who rests (gp_config.sleep): spans of particles whose motion and change of stress have died away, and what the stages have
+// to do while they are left out. stages/sleep.cpp says when a span rests and when it wakes; awake.hpp has the loops over what
 // is awake.
 //
-// Blocks are those of parallel.hpp: 64 particles that follow each other in the order of the cell sort. What tells whether
-// material rests is kept by particle (Particles::repose), so that it survives a new order.
+// A span is what is in a row of cells, in 16 columns counted from the frame's first: some 32 particles that follow each other in
+// the order of the cell sort. The frame is that of all particles, whoever works on them, and a span is one process's as a whole:
+// so who sleeps does not depend on the processes. With sleep in use spans are the blocks that work is cut into
+// (ClusterList::starts). What tells whether material rests is kept by particle (Particles::repose), so that it survives a new
+// order.
 #pragma once
 
 #include <cstdint>
@@ -24,24 +27,43 @@ struct MeanLoad {
     int64_t id; // of the particle
     int32_t plate;
     double x, y, couple;
+
+    static constexpr std::size_t numbers = 5;
+    void put(double *out) const {
+        out[0] = static_cast<double>(id);
+        out[1] = plate;
+        out[2] = x;
+        out[3] = y;
+        out[4] = couple;
+    }
+    static MeanLoad of(const double *in) {
+        return {static_cast<int64_t>(in[0]), static_cast<int32_t>(in[1]), in[2], in[3], in[4]};
+    }
 };
+
+// One of the bits that a double holds; where there are more plates some share one, and wake what touches the other, too.
+inline uint64_t plate_bit(int64_t plate) {
+    return uint64_t{1} << (plate % 52);
+}
 
 struct Sleep {
     bool in_use = false; // gp_config.sleep
     bool stale = true;   // lists have been made since the next ones were
-    bool linked = false; // links are those of the lists
+    bool fallen = false; // some have fallen asleep since the work was chosen
     bool may_rest = false;
+    bool idle = false; // all sleep, those of all processes
 
-    // Of blocks: 1 or 0. reached: restless, or it sees one that is.
-    Field<uint8_t> asleep, restless, reached;
-    // The blocks whose particles a block sees.
+    // The span of each particle and image. Those of other processes' particles are behind the ones here.
+    Field<int32_t> span_of;
+    int64_t spans = 0, others = 0;
+    // Of spans: 1 or 0. reached: restless or beside a plate that acts, or it sees one that is.
+    Field<uint8_t> asleep, restless, stirs, reached;
+    Field<uint64_t> plates; // whose ghosts a span sees, bit by bit (plate_bit)
+    // The spans whose particles a span sees.
     Field<int32_t> link_start, links, stamp;
-    struct Touch {
-        int32_t block, plate;
-    };
-    std::vector<Touch> touches; // who sees ghosts of which plate
+    int64_t awake_of_all = 1; // spans, those of all processes, after the last step
 
-    // While some sleep: the blocks that are awake, then those asleep that these see; runs of the contacts of what is awake,
+    // While some sleep: the spans that are awake, then those asleep that these see; runs of the contacts of what is awake,
     // and of the ghosts that it sees.
     bool some = false;
     Field<int32_t> lit;
@@ -50,17 +72,15 @@ struct Sleep {
     Field<uint8_t> ghost_seen;
 
     std::vector<MeanLoad> loads, earlier_loads; // by contact
-    Field<int32_t> load_of_id;
     std::vector<Vector> pushed;  // N/m, by pushes in this step, by contact
     std::vector<ExactLoad> held; // by what sleeps, on each plate
 
-    bool all() const { return some && awake == 0; }
     int64_t bytes() const {
         return static_cast<int64_t>(
-            asleep.capacity() + restless.capacity() + reached.capacity() + ghost_seen.capacity() +
-            (link_start.capacity() + links.capacity() + stamp.capacity() + lit.capacity() + load_of_id.capacity()) *
+            asleep.capacity() + restless.capacity() + stirs.capacity() + reached.capacity() + ghost_seen.capacity() +
+            (span_of.capacity() + link_start.capacity() + links.capacity() + stamp.capacity() + lit.capacity()) *
                 sizeof(int32_t) +
-            touches.capacity() * sizeof(Touch) + (contacts.capacity() + ghosts.capacity()) * sizeof(IndexRun) +
+            plates.capacity() * sizeof(uint64_t) + (contacts.capacity() + ghosts.capacity()) * sizeof(IndexRun) +
             (loads.capacity() + earlier_loads.capacity()) * sizeof(MeanLoad) + pushed.capacity() * sizeof(Vector) +
             held.capacity() * sizeof(ExactLoad));
     }

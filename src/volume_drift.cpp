@@ -143,11 +143,10 @@ Packing measure_packing(const World &world, Part part) {
         int64_t weights = 0, particles = 0;
         double density = 0;
     };
-    std::vector<Sums> blocks(block_count(p.count));
-    for_each_block(world.threads, p.count, [&](int64_t block, int64_t, int64_t end) {
-        for (int64_t c = world.clusters.cluster_of_block[block]; c < world.clusters.count(); ++c) {
-            if (world.clusters.first[c] >= end)
-                break;
+    const Field<int32_t> &of_block = world.clusters.cluster_of_block;
+    std::vector<Sums> blocks(static_cast<std::size_t>(world.clusters.blocks()));
+    for_each_block<1>(world.threads, world.clusters.blocks(), [&](int64_t block, int64_t, int64_t) {
+        for (int64_t c = of_block[block]; c < of_block[block + 1]; ++c) {
             ClusterNeighborhoods about(world);
             for (int64_t place = world.clusters.first[c]; place < world.clusters.first[c + 1]; ++place)
                 if (part == Part::all || flows(world, world.particle_listed_at(place)))

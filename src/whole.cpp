@@ -1,6 +1,7 @@
 #include "whole.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "stages/stages.hpp"
 #include "stretches.hpp"
@@ -12,8 +13,6 @@ void require_partable(const Scene &scene) {
     if (by_number_density(scheme_of(config)))
         throw make_error(GP_E_UNSUPPORTED, "gp_config.preset: expected the default or the implicit scheme with several "
                                            "processes, not one of the paper's");
-    if (config.sleep != 0)
-        throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = 1: expected 0 with several processes");
 }
 
 namespace {
@@ -163,6 +162,19 @@ void tell_first(OnFirst &first, Crossing &crossing, int64_t count, std::size_t n
     });
 }
 
+// And the other way: in the order of the particles, as a process alone has them.
+void collect_loads(OnFirst &first, const World &part, World *whole, const std::vector<int64_t> &place_of_id) {
+    tell_first(
+        first, *part.crossing, static_cast<int64_t>(part.sleep.loads.size()), MeanLoad::numbers,
+        [&](int64_t k, double *out) { part.sleep.loads[k].put(out); },
+        [&](const double *row) { whole->sleep.loads.push_back(MeanLoad::of(row)); });
+    first.run([&] {
+        std::stable_sort(
+            whole->sleep.loads.begin(), whole->sleep.loads.end(),
+            [&](const MeanLoad &a, const MeanLoad &b) { return place_of_id[a.id] < place_of_id[b.id]; });
+    });
+}
+
 std::vector<int64_t> places_of_ids(const Particles &p) {
     std::vector<int64_t> places(static_cast<std::size_t>(p.count));
     for (int64_t i = 0; i < p.count; ++i)
@@ -185,13 +197,20 @@ void take_listed(Particles &p, int64_t i, const double *row) {
     p.y[i] = row[3];
 }
 
-void pack_fields(const std::vector<Field<double> *> &fields, int64_t i, double *out) {
-    for (const Field<double> *field : fields)
-        *out++ = (*field)[i];
-}
-void take_fields(const std::vector<Field<double> *> &fields, int64_t i, const double *row) {
-    for (Field<double> *field : fields)
-        (*field)[i] = *row++;
+// What sleeping particles press plates with: all processes get that of the first, and keep that of their own ones.
+void tell_loads(World &part, const World *whole) {
+    std::vector<double> numbers;
+    if (whole)
+        for (const MeanLoad &load : whole->sleep.loads) {
+            numbers.resize(numbers.size() + MeanLoad::numbers);
+            load.put(&numbers[numbers.size() - MeanLoad::numbers]);
+        }
+    tell_all_of(*part.crossing, numbers);
+    std::vector<int64_t> own(part.particles.id.begin(), part.particles.id.begin() + part.particles.count);
+    std::sort(own.begin(), own.end());
+    for (std::size_t at = 0; at < numbers.size(); at += MeanLoad::numbers)
+        if (const MeanLoad load = MeanLoad::of(&numbers[at]); std::binary_search(own.begin(), own.end(), load.id))
+            part.sleep.loads.push_back(load);
 }
 
 } // namespace
@@ -215,16 +234,15 @@ std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const Wo
         [&](int64_t i, const double *row) { take_listed(p, i, row); });
     stages::make_lists(*part); // they go to their owners
     std::vector<int64_t> place_of_id;
-    std::vector<Field<double> *> of_whole;
-    if (whole) {
+    if (whole)
         place_of_id = places_of_ids(whole->particles);
-        of_whole = carried_fields(const_cast<World *>(whole)->particles);
-    }
-    const std::vector<Field<double> *> fields = carried_fields(p);
+    const Carried carried(p), of_whole(whole ? const_cast<World *>(whole)->particles : p);
     ask_first(
-        crossing, p.count, fields.size(), [&](int64_t i) { return p.id[i]; },
-        [&](int64_t id, double *out) { pack_fields(of_whole, place_of_id[id], out); },
-        [&](int64_t i, const double *row) { take_fields(fields, i, row); });
+        crossing, p.count, carried.numbers(), [&](int64_t i) { return p.id[i]; },
+        [&](int64_t id, double *out) { of_whole.put(place_of_id[id], out); },
+        [&](int64_t i, const double *row) { carried.take(i, row); });
+    if (part->sleep.in_use)
+        tell_loads(*part, whole);
     finish(*part, common);
     return part;
 }
@@ -245,20 +263,22 @@ std::unique_ptr<World> put_together(const World &part) {
         first, crossing, p.count, listed_numbers, [&](int64_t i, double *out) { pack_listed(part, i, i, out); },
         [&](const double *row) { take_listed(whole->particles, next++, row); });
     std::vector<int64_t> place_of_id;
-    std::vector<Field<double> *> of_whole;
+    std::optional<Carried> of_whole;
     first.run([&] {
         stages::make_lists(*whole);
         place_of_id = places_of_ids(whole->particles);
-        of_whole = carried_fields(whole->particles);
+        of_whole.emplace(whole->particles);
     });
-    const std::vector<Field<double> *> fields = carried_fields(const_cast<World &>(part).particles);
+    const Carried carried(const_cast<World &>(part).particles);
     tell_first(
-        first, crossing, p.count, fields.size() + 1,
+        first, crossing, p.count, carried.numbers() + 1,
         [&](int64_t i, double *out) {
             *out = static_cast<double>(p.id[i]);
-            pack_fields(fields, i, out + 1);
+            carried.put(i, out + 1);
         },
-        [&](const double *row) { take_fields(of_whole, place_of_id[static_cast<int64_t>(row[0])], row + 1); });
+        [&](const double *row) { of_whole->take(place_of_id[static_cast<int64_t>(row[0])], row + 1); });
+    if (part.sleep.in_use)
+        collect_loads(first, part, whole.get(), place_of_id);
     first.run([&] { finish(*whole, common); });
     first.finish();
     return whole;

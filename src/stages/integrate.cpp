@@ -46,7 +46,7 @@ void require_bounded_step(const World &world, const Field<double> &ax, const Fie
     // By one thread: to call the others takes longer, at a thousand particles seven times as long.
     bool suspect = false;
     const Sleep &s = world.sleep;
-    const int64_t count = s.some ? s.awake : block_count(world.particles.count);
+    const int64_t count = s.some ? s.awake : static_cast<int64_t>(world.sums.size());
     for (int64_t k = 0; k < count; ++k) {
         const BlockSums &block = world.sums[s.some ? s.lit[k] : k];
         suspect |= block.unbounded || !(block.acceleration2 <= most * most);

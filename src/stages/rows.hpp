@@ -67,7 +67,7 @@ template <class Body> void for_each_awake_cluster_run(const World &world, const 
         const int64_t block = half / 2;
         return half % 2 == 0 ? of_block[block] : (of_block[block] + of_block[block + 1]) / 2;
     };
-    for_each_share(world.threads, 2 * (s.some ? s.awake : block_count(world.particles.count)),
+    for_each_share(world.threads, 2 * (s.some ? s.awake : world.clusters.blocks()),
                    [&](int64_t begin, int64_t end) {
                        if (!s.some)
                            body(edge(begin), edge(end));

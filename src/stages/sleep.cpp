@@ -29,6 +29,7 @@ namespace {
 constexpr double quiet_way = 0.05;    // dl
 constexpr double quiet_stress = 0.02; // of mean pressure and rho g dl
 constexpr double quiet_spans = 8;     // sqrt(dl / g)
+constexpr double full_span = 2 * span_columns; // particles: what fewer do is little to those beside them
 constexpr double quiet_waves = 10;    // and so many times what a wave needs for the way that particles see
 constexpr double quiet_growth =
     0.1;                         // of the granular fluidity: where it grows, more than this, failure may be on its way
@@ -46,18 +47,21 @@ bool acts(const Plate &plate) {
     return plate.motion().any() || plate.loaded() || plate.spec().surface_velocity != 0;
 }
 
+// From what all particles did in the step before, so that no process needs to hear of another one's in between.
 void find_reached(World &world) {
     Sleep &s = world.sleep;
-    constexpr uint8_t source = 2;
-    for (std::size_t block = 0; block < s.reached.size(); ++block)
-        s.reached[block] = s.restless[block] ? source : 0;
-    for (const Sleep::Touch &touch : s.touches)
-        if (acts(world.walls.plates[touch.plate]))
-            s.reached[touch.block] = source;
-    for (std::size_t block = 0; block < s.reached.size(); ++block)
-        if (s.reached[block] == source)
-            for_each_link(s, static_cast<int64_t>(block),
-                          [&](int32_t other) { s.reached[other] = std::max<uint8_t>(s.reached[other], 1); });
+    uint64_t acting = 0;
+    const std::vector<Plate> &plates = world.walls.plates;
+    for (std::size_t k = 0; k < plates.size(); ++k)
+        if (acts(plates[k]))
+            acting |= plate_bit(static_cast<int64_t>(k));
+    for (std::size_t span = 0; span < s.stirs.size(); ++span)
+        s.stirs[span] = s.restless[span] || (s.plates[span] & acting) != 0;
+    for (int64_t span = 0; span < s.spans; ++span) {
+        uint8_t reached = s.stirs[span];
+        for_each_link(s, span, [&](int32_t other) { reached |= s.stirs[other]; });
+        s.reached[span] = reached;
+    }
 }
 
 void begin_anew(const Particles &p, int64_t i, Repose &repose) {
@@ -68,7 +72,7 @@ void begin_anew(const Particles &p, int64_t i, Repose &repose) {
     repose.fluidity = p.fluidity.empty() ? 0.0f : static_cast<float>(p.fluidity[i]);
 }
 
-// Brings what the particles of a block remember up to this step. Returns whether one of them has not been quiet for long enough.
+// Brings what the particles of a span remember up to this step. Returns whether one of them has not been quiet for long enough.
 bool is_restless(World &world, int64_t begin, int64_t end) {
     Particles &p = world.particles;
     const Constants &c = world.constants;
@@ -99,7 +103,8 @@ bool is_restless(World &world, int64_t begin, int64_t end) {
             fluidity_before += repose.fluidity;
         }
     }
-    const double most = quiet_stress * (pressure + weight * c.gravity.norm() * c.spacing);
+    const double size = std::max(1.0, full_span / static_cast<double>(end - begin));
+    const double most = quiet_stress * (pressure + size * weight * c.gravity.norm() * c.spacing);
     const double blow = c.wave_speed * std::hypot(momentum_x, momentum_y); // the stress of the wave when it stops
     const bool grows = fluidity > (1 + quiet_growth) * fluidity_before;
     if (grows || !(blow <= 0.5 * most) || !(std::abs(change) <= most) || !(std::hypot(change_xx, change_xy) <= most)) {
@@ -125,19 +130,28 @@ void average_loads(World &world) {
     });
 }
 
-// A block comes to rest: what is left of its motion is lost. Returns the energy, J/m.
-double lay_down(World &world, int64_t block) {
+// A span comes to rest: what is left of its motion is lost. Returns the energy, J/m.
+double lay_down(World &world, int64_t span) {
     Particles &p = world.particles;
     double kinetic = 0;
-    for_each_of(world, block, [&](int64_t i) {
+    for_each_of(world, span, [&](int64_t i) {
         kinetic += world.material_of(i).density * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
         p.vx[i] = p.vy[i] = p.ax[i] = p.ay[i] = p.push_x[i] = p.push_y[i] = 0;
         p.lxx[i] = p.lxy[i] = p.lyx[i] = p.lyy[i] = 0;
         p.asleep[i] = 1;
     });
-    clear_exchanged(world, block);
-    world.sleep.asleep[block] = 1;
+    clear_exchanged(world, span);
+    world.sleep.asleep[span] = 1;
     return 0.5 * p.volume * kinetic;
+}
+
+// Of several processes each must know that none of the others has work.
+bool all_sleep(const World &world, bool stale) {
+    const Sleep &s = world.sleep;
+    if (!world.crossing)
+        return s.some && s.awake == 0;
+    const std::vector<Plate> &plates = world.walls.plates;
+    return !stale && s.awake_of_all == 0 && std::none_of(plates.begin(), plates.end(), acts);
 }
 
 } // namespace
@@ -145,51 +159,41 @@ double lay_down(World &world, int64_t block) {
 void wake(World &world) {
     Sleep &s = world.sleep;
     const bool stale = s.stale;
+    bool changed = stale || s.fallen;
     if (stale) {
-        take_over_blocks(world, quiet_time(world.constants));
+        take_over_spans(world, quiet_time(world.constants));
         take_over_contacts(world);
-        s.linked = false;
-        s.stale = false;
     }
-    s.may_rest = std::any_of(s.restless.begin(), s.restless.end(), [](uint8_t restless) { return !restless; });
+    s.stale = s.fallen = false;
+    s.may_rest = std::count(s.restless.begin(), s.restless.begin() + s.spans, 0) > 0;
     if (!s.may_rest) {
         s.some = false;
-        return;
+    } else {
+        find_reached(world);
+        for (int64_t span = 0; span < s.spans; ++span)
+            if (s.asleep[span] && s.reached[span]) {
+                s.asleep[span] = 0;
+                for_each_of(world, span, [&](int64_t i) { world.particles.asleep[i] = 0; });
+                changed = true;
+            }
+        if (changed)
+            choose_work(world);
     }
-    if (!s.linked)
-        link_blocks(world);
-    find_reached(world);
-    bool woken = false;
-    for (std::size_t block = 0; block < s.asleep.size(); ++block)
-        if (s.asleep[block] && s.reached[block]) {
-            s.asleep[block] = 0;
-            for_each_of(world, static_cast<int64_t>(block), [&](int64_t i) { world.particles.asleep[i] = 0; });
-            woken = true;
-        }
-    if (stale || woken)
-        choose_work(world);
+    s.idle = all_sleep(world, stale);
 }
 
 void sleep(World &world) {
     Sleep &s = world.sleep;
-    if (s.all())
-        return;
     for_each_awake_block(
-        world, [&](int64_t block, int64_t begin, int64_t end) { s.restless[block] = is_restless(world, begin, end); });
+        world, [&](int64_t span, int64_t begin, int64_t end) { s.restless[span] = is_restless(world, begin, end); });
     average_loads(world);
     if (!s.may_rest)
         return;
-    find_reached(world);
-    bool fallen = false;
-    for (std::size_t block = 0; block < s.asleep.size(); ++block)
-        if (!s.asleep[block] && !s.reached[block]) {
-            world.ledger.dissipated += lay_down(world, static_cast<int64_t>(block));
-            fallen = true;
+    for (int64_t span = 0; span < s.spans; ++span)
+        if (!s.asleep[span] && !s.reached[span] && !s.restless[span]) {
+            world.ledger.dissipated += lay_down(world, span);
+            s.fallen = true;
         }
-    if (!fallen)
-        return;
-    choose_work(world);
-    world.images.copy({&world.particles.vx, &world.particles.vy});
 }
 
 void wake_all(World &world) {
@@ -199,7 +203,7 @@ void wake_all(World &world) {
         begin_anew(p, static_cast<int64_t>(i), p.repose[i]);
         p.asleep[i] = 0;
     }
-    s.some = false;
+    s.some = s.idle = s.fallen = false;
     s.stale = true;
 }
 

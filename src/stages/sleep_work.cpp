@@ -1,14 +1,16 @@
-// What there is to do beside blocks that sleep: who sees whom, which contacts and ghosts are left, what plates bear of those that
-// sleep, and what neighbours read of them.
+// What there is to do beside spans that sleep: which contacts and ghosts are left, what plates bear of those that sleep, and what
+// neighbours read of them.
+#include <algorithm>
+
 #include "stages/sleep_work.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
 
-void clear_exchanged(World &world, int64_t block) {
+void clear_exchanged(World &world, int64_t span) {
     const auto clear = [&](Field<double> &field) {
         if (!field.empty())
-            for_each_of(world, block, [&](int64_t i) { field[i] = 0; });
+            for_each_of(world, span, [&](int64_t i) { field[i] = 0; });
     };
     for (Field<double> &field : world.step_start.made)
         clear(field);
@@ -16,121 +18,63 @@ void clear_exchanged(World &world, int64_t block) {
     clear(world.particles.push_y);
 }
 
-void take_over_blocks(World &world, double quiet_time) {
-    Sleep &s = world.sleep;
-    Particles &p = world.particles;
-    const auto blocks = static_cast<std::size_t>(blocks_of(world));
-    for (Field<uint8_t> *flags : {&s.asleep, &s.restless, &s.reached})
-        flags->assign(blocks, 0);
-    const auto enough = static_cast<float>(quiet_time);
-    for (std::size_t block = 0; block < blocks; ++block) {
-        bool asleep = true, restless = false;
-        for_each_of(world, block, [&](int64_t i) {
-            asleep &= p.asleep[i] != 0;
-            restless |= p.repose[i].quiet_for < enough;
-        });
-        s.asleep[block] = asleep;
-        s.restless[block] = !asleep && restless;
-        if (!asleep) // new neighbours in the order may be awake
-            for_each_of(world, block, [&](int64_t i) { p.asleep[i] = 0; });
-        else
-            clear_exchanged(world, static_cast<int64_t>(block)); // it is in the order of before
-    }
-}
-
 void take_over_contacts(World &world) {
     Sleep &s = world.sleep;
     const Walls &w = world.walls;
     const Particles &p = world.particles;
-    s.touches.clear();
+    const auto before = [](const MeanLoad &a, const MeanLoad &b) { return a.id < b.id; };
     s.earlier_loads.swap(s.loads);
     s.loads.clear();
-    s.load_of_id.assign(static_cast<std::size_t>(p.count), -1);
-    for (std::size_t k = s.earlier_loads.size(); k-- > 0;)
-        s.load_of_id[s.earlier_loads[k].id] = static_cast<int32_t>(k); // its first
+    std::stable_sort(s.earlier_loads.begin(), s.earlier_loads.end(), before);
     for (const Contact &contact : w.contacts) {
         const int64_t id = p.id[contact.particle];
-        const auto block = static_cast<int32_t>(contact.particle / block_size);
         const int32_t plate = w.facets[contact.facet].plate;
         MeanLoad load{id, plate, 0, 0, 0};
         // In a groove a particle has two contacts with one plate: the first is the first again.
         int64_t same = 0;
         for (std::size_t k = s.loads.size(); k > 0 && s.loads[k - 1].id == id; --k)
             same += s.loads[k - 1].plate == plate;
-        if (const int32_t first = s.load_of_id[id]; first >= 0)
-            for (auto k = static_cast<std::size_t>(first); k < s.earlier_loads.size() && s.earlier_loads[k].id == id;
-                 ++k)
-                if (s.earlier_loads[k].plate == plate && same-- == 0)
-                    load = s.earlier_loads[k];
+        const auto [first, last] = std::equal_range(s.earlier_loads.begin(), s.earlier_loads.end(), load, before);
+        for (auto earlier = first; earlier != last; ++earlier)
+            if (earlier->plate == plate && same-- == 0)
+                load = *earlier;
         s.loads.push_back(load);
-        bool known = false;
-        for (std::size_t k = s.touches.size(); k > 0 && s.touches[k - 1].block == block; --k)
-            known |= s.touches[k - 1].plate == plate;
-        if (!known)
-            s.touches.push_back({block, plate});
     }
     s.pushed.assign(w.contacts.size(), Vector::Zero());
     s.held.resize(w.plates.size());
 }
 
-void link_blocks(World &world) {
-    Sleep &s = world.sleep;
-    const ClusterList &list = world.clusters;
-    const int64_t blocks = blocks_of(world), count = world.particles.count;
-    s.links.clear();
-    s.link_start.assign(static_cast<std::size_t>(blocks + 1), 0);
-    s.stamp.assign(static_cast<std::size_t>(blocks), -1);
-    for (int64_t block = 0; block < blocks; ++block) {
-        for (int32_t c = list.cluster_of_block[block]; c < list.cluster_of_block[block + 1]; ++c)
-            for_each_entry(list, list.all, c, [&](int64_t, int32_t j) {
-                const int64_t other = (j < count ? j : world.images.source(j)) / block_size;
-                if (s.stamp[other] == block)
-                    return;
-                s.stamp[other] = static_cast<int32_t>(block);
-                s.links.push_back(static_cast<int32_t>(other));
-            });
-        s.link_start[block + 1] = static_cast<int32_t>(s.links.size());
-    }
-    s.linked = true;
-    // What is found at the end of a step has room: nothing may fail there.
-    s.lit.reserve(static_cast<std::size_t>(blocks));
-    s.contacts.reserve(world.walls.contacts.size());
-    s.ghosts.reserve(static_cast<std::size_t>(world.walls.ghost_count));
-    s.ghost_seen.reserve(static_cast<std::size_t>(world.walls.ghost_count));
-}
-
 namespace {
 
-void choose_awake_blocks(World &world) {
+void choose_awake_spans(World &world) {
     Sleep &s = world.sleep;
-    const int64_t blocks = blocks_of(world);
     s.lit.clear();
-    for (int64_t block = 0; block < blocks; ++block)
-        if (!s.asleep[block])
-            s.lit.push_back(static_cast<int32_t>(block));
+    for (int64_t span = 0; span < s.spans; ++span)
+        if (!s.asleep[span])
+            s.lit.push_back(static_cast<int32_t>(span));
     s.awake = static_cast<int64_t>(s.lit.size());
-    s.some = s.awake < blocks;
+    s.some = s.awake < s.spans;
 }
 
-// What sleeps within sight of what is awake, or of a ghost that this sees.
-void choose_seen_blocks(World &world) {
+// What sleeps within sight of what is awake, or of a ghost that this sees. Another process may look at what sees its particles, and
+// does not tell whether it does.
+void choose_seen_spans(World &world) {
     Sleep &s = world.sleep;
     const NeighborList &seen = world.walls.particles_of_ghost;
-    const int64_t blocks = blocks_of(world), count = world.particles.count;
     std::fill(s.stamp.begin(), s.stamp.end(), 0);
     for (int64_t k = 0; k < s.awake; ++k)
         for_each_link(s, s.lit[k], [&](int32_t other) { s.stamp[other] = 1; });
     for (const IndexRun &run : s.ghosts)
-        for (int64_t k = seen.start[run.begin]; k < seen.start[run.end]; ++k) {
-            const int64_t j = seen.index[k];
-            s.stamp[(j < count ? j : world.images.source(j)) / block_size] = 1;
-        }
-    for (int64_t block = 0; block < blocks; ++block)
-        if (s.asleep[block]) {
-            world.sums[block] = {};
-            world.ranges[block] = {0, 0, 0, 0};
-            if (s.stamp[block])
-                s.lit.push_back(static_cast<int32_t>(block));
+        for (int64_t k = seen.start[run.begin]; k < seen.start[run.end]; ++k)
+            s.stamp[s.span_of[seen.index[k]]] = 1;
+    for (int64_t span = 0; span < s.spans; ++span)
+        if (s.asleep[span]) {
+            world.sums[span] = {};
+            world.ranges[span] = {0, 0, 0, 0};
+            bool lit = s.stamp[span] != 0;
+            for_each_link(s, span, [&](int32_t other) { lit |= other >= s.spans; });
+            if (lit)
+                s.lit.push_back(static_cast<int32_t>(span));
         }
 }
 
@@ -149,8 +93,8 @@ void choose_contacts(World &world) {
     if (!w.in_reach())
         return;
     for (int64_t b = 0; b < s.awake; ++b) {
-        const int64_t first = s.lit[b] * block_size, last = std::min(world.particles.count, first + block_size);
-        const int32_t begin = w.contact_start[first], end = w.contact_start[last];
+        const Field<int64_t> &starts = world.clusters.starts;
+        const int32_t begin = w.contact_start[starts[s.lit[b]]], end = w.contact_start[starts[s.lit[b] + 1]];
         add_to_runs(s.contacts, begin, end);
         for (int32_t k = begin; k < end; ++k)
             for (int64_t e = w.contacts[k].begin; e < w.contacts[k].end; ++e)
@@ -187,18 +131,17 @@ void sum_held_loads(World &world) {
 } // namespace
 
 void choose_work(World &world) {
-    choose_awake_blocks(world);
+    choose_awake_spans(world);
     if (world.sleep.some) {
         choose_contacts(world);
-        choose_seen_blocks(world);
+        choose_seen_spans(world);
         sum_held_loads(world);
-        world.images.copy(world.particles.asleep);
     }
 }
 
 void add_held_loads(World &world) {
     Walls &w = world.walls;
-    if (world.sleep.all())
+    if (world.sleep.idle)
         w.clear_loads();
     for (std::size_t k = 0; k < w.plates.size(); ++k)
         w.plates[k].load += world.sleep.held[k];
@@ -206,8 +149,8 @@ void add_held_loads(World &world) {
 
 void remember_shape(World &world) {
     Particles &p = world.particles;
-    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
-        if (world.sleep.restless[block])
+    for_each_awake_block(world, [&](int64_t span, int64_t begin, int64_t end) {
+        if (world.sleep.restless[span])
             return;
         for (int64_t i = begin; i < end; ++i) {
             p.repose[i].gxx = p.gxx[i];
@@ -220,8 +163,8 @@ void remember_shape(World &world) {
 void hold_stress(World &world) {
     Particles &p = world.particles;
     const bool penalty = !p.stressed.empty();
-    for_each_seen_block(world, [&](int64_t block, int64_t begin, int64_t end) {
-        if (world.sleep.asleep[block])
+    for_each_seen_block(world, [&](int64_t span, int64_t begin, int64_t end) {
+        if (world.sleep.asleep[span])
             for (int64_t i = begin; i < end; ++i) {
                 const Repose &own = p.repose[i];
                 const double xx = p.sxx[i] - p.pressure[i], xy = p.sxy[i], yy = -p.sxx[i] - p.pressure[i];
@@ -232,7 +175,7 @@ void hold_stress(World &world) {
                 if (penalty)
                     p.stressed[i] = own.stressed;
             }
-        else if (penalty && !world.sleep.restless[block])
+        else if (penalty && !world.sleep.restless[span])
             for (int64_t i = begin; i < end; ++i)
                 p.repose[i].stressed = p.stressed[i];
     });

@@ -1,34 +1,30 @@
-// The blocks that sleep, and what is left to do beside them (sleep.hpp). sleep.cpp says which these are.
+// The spans that sleep, and what is left to do beside them (sleep.hpp). sleep.cpp says which these are.
 #pragma once
-
-#include <algorithm>
 
 #include "awake.hpp"
 
 namespace gp::stages {
 
-inline int64_t blocks_of(const World &world) {
-    return block_count(world.particles.count);
-}
-template <class Body> void for_each_of(const World &world, int64_t block, const Body &body) {
-    const int64_t end = std::min(world.particles.count, (block + 1) * block_size);
-    for (int64_t i = block * block_size; i < end; ++i)
+template <class Body> void for_each_of(const World &world, int64_t span, const Body &body) {
+    const Field<int64_t> &starts = world.clusters.starts;
+    for (int64_t i = starts[span]; i < starts[span + 1]; ++i)
         body(i);
 }
-template <class Found> void for_each_link(const Sleep &s, int64_t block, const Found &found) {
-    for (int32_t k = s.link_start[block]; k < s.link_start[block + 1]; ++k)
+template <class Found> void for_each_link(const Sleep &s, int64_t span, const Found &found) {
+    for (int32_t k = s.link_start[span]; k < s.link_start[span + 1]; ++k)
         found(s.links[k]);
 }
 
-// After new lists: blocks of the new order, of which those whose particles have all been quiet for so many seconds are not
+// While lists are made: the spans of the sorted particles; then, by the lists, the spans within `radius` of each.
+void find_spans(World &world);
+void link_spans(World &world, double radius);
+// After new lists: spans of the new order, of which those whose particles have all been quiet for so many seconds are not
 // restless; the contacts' loads.
-void take_over_blocks(World &world, double quiet_time);
+void take_over_spans(World &world, double quiet_time);
 void take_over_contacts(World &world);
-// The blocks whose particles a block sees, by the lists of its clusters.
-void link_blocks(World &world);
-// What there is to do, for the blocks that are awake now.
+// What there is to do, for the spans that are awake now.
 void choose_work(World &world);
-// The memory of a block that changes places with that of the velocity gradient: what is made of nobody.
-void clear_exchanged(World &world, int64_t block);
+// The memory of a span that changes places with that of the velocity gradient: what is made of nobody.
+void clear_exchanged(World &world, int64_t span);
 
 } // namespace gp::stages

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "parts.hpp"
+#include "stages/sleep_work.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -59,7 +60,7 @@ void update_neighbors(World &world) {
     const double shift = world.clock.dt > 0 ? world.velocity_span * world.clock.dt : 0.0;
     // The collisions at the end of this step read the lists too: its own shift counts beforehand.
     if (world.lists_valid && world.shifted + shift <= world.skin && world.walls.chains_stand()) {
-        if (!world.sleep.all())
+        if (!world.sleep.idle)
             world.walls.face_facets(world.particles);
         return;
     }
@@ -81,6 +82,8 @@ void make_lists(World &world) {
     if (world.crossing)
         go_to_owners(world, frame);
     world.grid.sort(world.particles, frame, world.threads);
+    if (world.sleep.in_use)
+        find_spans(world);
     const Particles &p = world.particles;
     ListOrigin &origin = world.list_origin;
     origin.x.assign(p.x.begin(), p.x.begin() + p.count);
@@ -126,12 +129,16 @@ void make_lists(World &world) {
     world.walls.lanes.make(world.walls, world.clusters, world.grid, world.images);
     if (mirrored)
         world.mirrors.find(world.walls, world.particles, world.grid, world.images, about_mirrors, world.crossing);
+    if (world.sleep.in_use)
+        link_spans(world, radius);
     world.lists_valid = world.lists_new = world.lists_whole = world.sleep.stale = true;
     world.listed.clear();
 }
 
 void update_images(World &world) {
-    if (world.images.in_use())
+    if (world.crossing && world.sleep.in_use)
+        world.halo->copy_motion(world.particles, world.sleep);
+    else if (world.images.in_use())
         world.images.copy_motion(world.particles);
 }
 
