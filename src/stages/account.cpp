@@ -147,7 +147,7 @@ template <bool Adjoint> void close_books(World &world) {
     // material's angular momentum. Without the couple a layer at rest on an incline had a torque off by .4 dl times its shear
     // force, and an inner wall of 16 dl radius turned with 4 % more than the material bears.
     double contact_power = 0, plate_power = 0;
-    if (world.sleep.some)
+    if (world.sleep.in_use)
         add_held_loads(world);
     for_each_awake_contact(world, [&](const Contact &contact) {
         const int64_t i = contact.particle;

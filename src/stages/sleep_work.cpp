@@ -141,8 +141,10 @@ void choose_work(World &world) {
 
 void add_held_loads(World &world) {
     Walls &w = world.walls;
-    if (world.sleep.idle)
+    if (world.sleep.idle) // no force stage has
         w.clear_loads();
+    if (!world.sleep.some)
+        return;
     for (std::size_t k = 0; k < w.plates.size(); ++k)
         w.plates[k].load += world.sleep.held[k];
 }

@@ -167,6 +167,50 @@ static void implicit(gp_config *c) { c->spacing = 0.004, c->stress = GP_STRESS_I
 static void implicit_incline(gp_config *c) { incline(c), c->stress = GP_STRESS_IMPLICIT; }
 static void implicit_few(gp_config *c) { few(c), c->stress = GP_STRESS_IMPLICIT; }
 
+/* What rests sleeps (gp_config.sleep): a heap, all of it; a bed that a block wakes, a column that a gate lets go; over the ends of a
+ * period; with fluidity. */
+static void sleepy(gp_config *c) { coarse(c), c->sleep = 1; }
+static void sleepy_soft(gp_config *c) { sleepy(c), c->sound_speed = 12; }
+static void heap(gp_sim *s) { add_column(s, -0.06, 0, 0.12, 0.04, 0, 0, 0), floor_of(s, -1, 1); }
+static void fluid_heap(gp_sim *s) {
+    gp_material m;
+    check(gp_material_init(&m, sizeof m), "gp_material_init");
+    m.nonlocal_amplitude = 0.48;
+    check(gp_add_material(s, &m, NULL), "gp_add_material");
+    add_column(s, -0.06, 0, 0.12, 0.03, 1, 0, 0);
+    floor_of(s, -1, 1);
+}
+static void bed(gp_sim *s) {
+    add_column(s, 0, 0, 0.24, 0.04, 0, 0, 0);
+    add_column(s, 0.1, 0.3, 0.032, 0.032, 0, 0, 0);
+    floor_of(s, 0, 0.24);
+    gp_plate p = a_plate(0, 0, 0, 1);
+    p.friction = GP_WALL_FREE_SLIP;
+    add_plate(s, &p);
+    p = a_plate(0.24, 1, 0.24, 0);
+    add_plate(s, &p);
+}
+static void held(gp_sim *s) {
+    static const double t[] = {0, 0.35, 0.36, 0.6}, x[] = {0, 0, 0, 0}, y[] = {0, 0, 0.002, 0.3};
+    add_column(s, 0, 0, 0.16, 0.06, 0, 0, 0);
+    floor_of(s, -1, 1);
+    gp_plate p = a_plate(0, 0, 0, 0.2);
+    add_plate(s, &p);
+    p = a_plate(0.16, 0.2, 0.16, 0);
+    p.n_knots = 4, p.knot_t = t, p.knot_x = x, p.knot_y = y;
+    add_plate(s, &p);
+}
+static void sleepy_ring(gp_config *c) {
+    sleepy_soft(c);
+    c->periodic_x_min = 0.01, c->periodic_x_max = 0.27;
+    c->gravity_x = 0.3, c->jitter = 0.02, c->seed = 3;
+}
+static void ring(gp_sim *s) {
+    add_column(s, 0.01, 0, 0.26, 0.04, 0, 0, 0);
+    add_column(s, 0.1, 0.3, 0.032, 0.032, 0, 0.5, 0); /* comes down near the end */
+    floor_of(s, 0.01, 0.27);
+}
+
 static const scene scenes[] = {
     {"collapse", fine, collapse, 400}, {"chute", incline, chute, 300},        {"box", coarse, box, 300},
     {"lifted", coarse, lifted, 300},   {"drum", coarse, drum, 300},           {"hopper", coarse, hopper, 300},
@@ -176,6 +220,8 @@ static const scene scenes[] = {
     {"implicit", implicit, collapse, 60}, {"implicit_chute", implicit_incline, chute, 20}, {"implicit_box", implicit, box, 6},
     {"implicit_drum", implicit, drum, 40}, {"implicit_two", implicit, two_materials, 6}, {"implicit_fragments", implicit, fragments, 40},
     {"implicit_handful", implicit_few, handful, 60},
+    {"sleep", sleepy, heap, 1600},        {"sleep_bed", sleepy_soft, bed, 1500}, {"sleep_gate", sleepy, held, 1800},
+    {"sleep_ring", sleepy_ring, ring, 1500}, {"sleep_fluid", sleepy, fluid_heap, 1400},
 };
 
 static gp_sim *make(const scene *s, int alone) {
@@ -276,7 +322,7 @@ static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
         return;
     const gp_state a = state_of(alone);
     const double scale = a.kinetic + a.potential + a.elastic + fabs(a.dissipated);
-    EQUAL(time), EQUAL(step), EQUAL(dt), EQUAL(n_particles), EQUAL(kinetic), EQUAL(potential), EQUAL(elastic);
+    EQUAL(time), EQUAL(step), EQUAL(dt), EQUAL(n_particles), EQUAL(n_awake), EQUAL(kinetic), EQUAL(potential), EQUAL(elastic);
     EQUAL(momentum_x), EQUAL(momentum_y), EQUAL(max_speed), EQUAL(rms_speed), EQUAL(x_left), EQUAL(x_right);
     EQUAL(peak_x), EQUAL(peak_height), EQUAL(max_pressure), EQUAL(at_rest), EQUAL(collisions), EQUAL(retries);
     EQUAL(max_compression), EQUAL(x_q05), EQUAL(x_q50), EQUAL(detached), EQUAL(volume_drift);
