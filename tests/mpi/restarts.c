@@ -22,7 +22,28 @@ static void check(gp_status status) {
     }
 }
 
+/* A bed that sleeps when a block has nearly come down to it. */
+static void build_bed(gp_sim *sim) {
+    gp_column column;
+    gp_plate plate;
+    check(gp_column_init(&column, sizeof column));
+    column.width = 0.24, column.height = 0.04;
+    check(gp_add_column(sim, &column, NULL));
+    column.x_min = 0.1, column.y_min = 0.3, column.width = column.height = 0.032;
+    check(gp_add_column(sim, &column, NULL));
+    const double at[][4] = {{0.24, 0, 0, 0}, {0, 0, 0, 1}, {0.24, 1, 0.24, 0}};
+    for (int k = 0; k < 3; ++k) {
+        check(gp_plate_init(&plate, sizeof plate));
+        plate.x0 = at[k][0], plate.y0 = at[k][1], plate.x1 = at[k][2], plate.y1 = at[k][3];
+        check(gp_add_plate(sim, &plate, NULL));
+    }
+}
+
 static void build(gp_sim *sim, const char *scene) {
+    if (!strcmp(scene, "sleep")) {
+        build_bed(sim);
+        return;
+    }
     gp_column column;
     gp_plate plate;
     check(gp_column_init(&column, sizeof column));
@@ -128,6 +149,8 @@ int main(int argc, char **argv) {
             config.spacing = 0.004, config.jitter = 0.1, config.threads = 1;
             if (!strcmp(argv[2], "periodic"))
                 config.periodic_x_max = 0.16, config.gravity_x = 4;
+            if (!strcmp(argv[2], "sleep"))
+                config.sleep = 1, config.sound_speed = 12, config.jitter = 0;
             check(gp_create_mpi(&config, MPI_COMM_WORLD, &sim));
             build(sim, argv[2]);
         } else if (!strcmp(mode, "alone")) {
