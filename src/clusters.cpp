@@ -46,8 +46,9 @@ template <class Body> void for_each_block_of(const ClusterList &list, int thread
     if (list.starts.empty())
         for_each_block(threads, count, body);
     else
-        for_each_block<1>(threads, static_cast<int64_t>(list.starts.size()) - 1,
-                          [&](int64_t block, int64_t, int64_t) { body(block, list.starts[block], list.starts[block + 1]); });
+        for_each_block<1>(threads, static_cast<int64_t>(list.starts.size()) - 1, [&](int64_t block, int64_t, int64_t) {
+            body(block, list.starts[block], list.starts[block + 1]);
+        });
 }
 
 void cut(const Particles &p, const CellGrid &grid, double radius, int threads, ClusterList &list) {

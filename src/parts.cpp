@@ -193,8 +193,8 @@ bool is_uneven(World &world) {
 } // namespace
 
 Carried::Carried(Particles &p)
-    : particles_(p), fields_({&p.x, &p.y, &p.vx, &p.vy, &p.density, &p.pressure, &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx,
-                              &p.lyy}),
+    : particles_(p),
+      fields_({&p.x, &p.y, &p.vx, &p.vy, &p.density, &p.pressure, &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx, &p.lyy}),
       rests_(!p.repose.empty()) {
     if (!p.fluidity.empty())
         fields_.push_back(&p.fluidity);

@@ -72,8 +72,8 @@ struct Sleep {
     Field<uint8_t> ghost_seen;
 
     std::vector<MeanLoad> loads, earlier_loads; // by contact
-    std::vector<Vector> pushed;  // N/m, by pushes in this step, by contact
-    std::vector<ExactLoad> held; // by what sleeps, on each plate
+    std::vector<Vector> pushed;                 // N/m, by pushes in this step, by contact
+    std::vector<ExactLoad> held;                // by what sleeps, on each plate
 
     int64_t bytes() const {
         return static_cast<int64_t>(

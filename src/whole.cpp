@@ -169,9 +169,8 @@ void collect_loads(OnFirst &first, const World &part, World *whole, const std::v
         [&](int64_t k, double *out) { part.sleep.loads[k].put(out); },
         [&](const double *row) { whole->sleep.loads.push_back(MeanLoad::of(row)); });
     first.run([&] {
-        std::stable_sort(
-            whole->sleep.loads.begin(), whole->sleep.loads.end(),
-            [&](const MeanLoad &a, const MeanLoad &b) { return place_of_id[a.id] < place_of_id[b.id]; });
+        std::stable_sort(whole->sleep.loads.begin(), whole->sleep.loads.end(),
+                         [&](const MeanLoad &a, const MeanLoad &b) { return place_of_id[a.id] < place_of_id[b.id]; });
     });
 }
 

@@ -7,7 +7,7 @@
     /usr/bin/python3 bench/performance/aims.py --figure   # docs/images/performance_collapse.png
 
 In aims.json "rows" are the runs (aims_rows.py), "levels" the settings and what the rows say of them ("cpu_seconds_awake": with
-sleep = 0, as on several processes), "mpm" the column with a = 1.25 by an
+sleep = 0), "mpm" the column with a = 1.25 by an
 explicit MPM code with the same law, [L/dl, CPU s, peak y/L, run-out of 90 % of the mass], single runs: not measured here.
 
 Between two marks such as <!-- aims --> and <!-- /aims -->, in Python # aims and # /aims, a page is not written by hand.
@@ -59,7 +59,7 @@ def marked(levels: Levels, rows: list[aims_rows.Row]) -> str:
 def python(levels: Levels, rows: list[aims_rows.Row]) -> str:
     lines = ["_LEVELS = {"]
     lines += [f'    "{name}": _Level({of["spacings"]}, {of["horizon"]:.1f}, {of["sleep"]}, {of["aim"]:.2f}, {of["peak_error"]:.3f}, '
-              f'{of["runout_error"]:.3f}, {of["cpu_seconds"]:.2f}, {of["cpu_seconds_awake"]:.2f}),' for name, of in levels.items()]
+              f'{of["runout_error"]:.3f}, {of["cpu_seconds"]:.2f}),' for name, of in levels.items()]
     return "\n".join([*lines, "}"])
 
 

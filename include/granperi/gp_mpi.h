@@ -25,7 +25,7 @@
  * gp_get_plate_load, gp_get_plan, gp_get_clock) fail here alone, and do no harm; before the first step all but gp_get_clock are
  * made by all, as the others. gp_set_callback, gp_set_log and gp_get_clock are possible after the end. Memory that MPI or Zoltan
  * lack themselves is beyond this library, and so is room for a message on its way when another process failed: MPI_Abort.
- * gp_config.sleep and the paper's schemes are GP_E_UNSUPPORTED. */
+ * The paper's schemes are GP_E_UNSUPPORTED. With gp_config.sleep = 1 a process has whole spans of 16 spacings (gp_step, "Sleep"). */
 #ifndef GRANPERI_GP_MPI_H
 #define GRANPERI_GP_MPI_H
 

@@ -67,16 +67,15 @@ template <class Body> void for_each_awake_cluster_run(const World &world, const 
         const int64_t block = half / 2;
         return half % 2 == 0 ? of_block[block] : (of_block[block] + of_block[block + 1]) / 2;
     };
-    for_each_share(world.threads, 2 * (s.some ? s.awake : world.clusters.blocks()),
-                   [&](int64_t begin, int64_t end) {
-                       if (!s.some)
-                           body(edge(begin), edge(end));
-                       else
-                           for (int64_t half = begin; half < end; ++half) {
-                               const int64_t there = 2 * int64_t{s.lit[half / 2]} + half % 2;
-                               body(edge(there), edge(there + 1));
-                           }
-                   });
+    for_each_share(world.threads, 2 * (s.some ? s.awake : world.clusters.blocks()), [&](int64_t begin, int64_t end) {
+        if (!s.some)
+            body(edge(begin), edge(end));
+        else
+            for (int64_t half = begin; half < end; ++half) {
+                const int64_t there = 2 * int64_t{s.lit[half / 2]} + half % 2;
+                body(edge(there), edge(there + 1));
+            }
+    });
 }
 // Calls body(block, first, last) for the clusters of each block of particles that is awake, and of those asleep that these see.
 template <class Body> void for_each_seen_cluster_block(const World &world, const Body &body) {

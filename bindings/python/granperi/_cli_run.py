@@ -124,7 +124,7 @@ def add(commands: Commands) -> None:
     run.add_argument("--until", choices=("end", "rest"), help="rest: over when the material rests [as the scene says]")
     run.add_argument("--spacing", type=float, help="m [that of the scene]")
     run.add_argument("--mpi", type=int, metavar="N", 
-                     help="on N processes, by mpiexec and granperi-mpi; without --resume, --csv, probes and sleep")
+                     help="on N processes, by mpiexec and granperi-mpi; without --resume, --csv and probes")
     run.add_argument("--threads", type=int, help="0: the OpenMP default [that of the scene]")
     run.add_argument("--csv", help="a file for the states at the frames, too")
     run.add_argument("--progress", action=argparse.BooleanOptionalAction, default=None,

@@ -14,9 +14,6 @@ def run(scene: Scene, ranks: int, output: str) -> None:
     """Runs a scene as its table [run] says, on so many processes; the frames go to `output`."""
     if ranks < 1:
         raise ArgumentError(f"--mpi {ranks}: expected a number of processes, 1 or more")
-    if scene.config.sleep:
-        raise scene._config_error(f"gp_config.sleep = {scene.config.sleep}: expected 0 with --mpi, nothing sleeps on several "
-                                  f"processes. Set sleep = 0 there, as granperi.settings(..., processes={ranks}) does, or leave it out")
     if scene.run.fields != "default":
         raise ArgumentError(f"fields = {scene.run.fields!r}: with --mpi expected \"default\"")
     program, mpiexec = shutil.which("granperi-mpi"), shutil.which("mpiexec")

@@ -6,7 +6,7 @@ import math
 import os
 from typing import Any
 
-from ._errors import ArgumentError, ArgumentTypeError, near_match, number, whole
+from ._errors import ArgumentError, ArgumentTypeError, near_match, number
 from ._objects import Config
 from ._scene import Scene, scene_of
 
@@ -19,7 +19,7 @@ class Settings:
     parameters of Config; all others stay what they are. aim: the error of one run of the column with a = 1.25 is below this: 0.1,
     0.05 or 0.02. peak_error, runout_error: measured relative error of one run (bias and scatter, root mean square) in the
     peak, and in the run-out of 90 % of the mass, in the worst of the three. cpu_seconds: of one run with a = 1.25 to 1 s, one
-    thread, with this sleep. processes: of MPI, for which sleep is 0; None: a run without MPI.
+    thread, with this sleep.
     """
 
     name: str
@@ -31,7 +31,6 @@ class Settings:
     peak_error: float
     runout_error: float
     cpu_seconds: float
-    processes: int | None = None
 
     @property
     def values(self) -> dict[str, Any]:
@@ -56,18 +55,16 @@ class Settings:
         return (config or Config()).replace(**self.values)
 
     def __str__(self) -> str:
-        processes, awake = ("", "") if self.processes is None else (f", processes {self.processes}", " with nothing asleep")
         return (f"{self.name}: spacing {self.spacing:.4g} m ({self.length / self.spacing:.0f} over {self.length:.4g} m), "
-                f"horizon {self.horizon:g} spacings, sleep {self.sleep}{processes}\n"
+                f"horizon {self.horizon:g} spacings, sleep {self.sleep}\n"
                 f"measured: one run erred by {100 * self.peak_error:.1f} % in the peak, {100 * self.runout_error:.1f} % in the "
-                f"run-out of 90 % of the mass, in the worst of three collapses; {self.cpu_seconds:.2g} CPU s to 1 s with a = 1.25"
-                f"{awake}\n"
+                f"run-out of 90 % of the mass, in the worst of three collapses; {self.cpu_seconds:.2g} CPU s to 1 s with a = 1.25\n"
                 "another scene errs otherwise: granperi.report tells what")
 
 
 @dataclasses.dataclass(frozen=True)
 class _Level:
-    """Spacings over the smallest side and horizon [spacings]; aim, errors and cost as in docs/settings.md; the cost with sleep = 0."""
+    """Spacings over the smallest side and horizon [spacings]; aim, errors and cost as in docs/settings.md."""
 
     spacings: int
     horizon: float
@@ -76,19 +73,18 @@ class _Level:
     peak_error: float
     runout_error: float
     cpu_seconds: float
-    cpu_seconds_awake: float
 
 
 # aims: written by bench/performance/aims.py
 _LEVELS = {
-    "draft": _Level(10, 4.0, 1, 0.10, 0.067, 0.082, 0.08, 0.14),
-    "standard": _Level(15, 4.0, 1, 0.05, 0.039, 0.043, 0.30, 0.41),
-    "fine": _Level(25, 3.0, 1, 0.02, 0.020, 0.015, 1.01, 1.67),
+    "draft": _Level(10, 4.0, 1, 0.10, 0.067, 0.082, 0.08),
+    "standard": _Level(15, 4.0, 1, 0.05, 0.039, 0.043, 0.30),
+    "fine": _Level(25, 3.0, 1, 0.02, 0.020, 0.015, 1.01),
 }
 # /aims
 
 
-def settings(name: str, of: "Scene | str | os.PathLike[str] | float", processes: int | None = None) -> Settings:
+def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Settings:
     """Recommended settings of the default scheme for a scene, or for bodies of a length.
 
     Errors and cost are those of three collapses of glass beads (docs/settings.md). The errors of another scene show only in runs
@@ -99,20 +95,17 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float", processes:
         of: a Scene, the path of a scene file, or the smallest side (m) of the bodies that are to be resolved, finite and above
             0. A scene's is the smallest width or height of its columns. Where something smaller decides (an opening, an
             obstacle, a thin layer), give its length.
-        processes: how many processes of MPI the run is for, 1 or more: nothing sleeps on them, so that sleep is 0 and the cost is
-            that without it; the errors are the same. Not given: a run without MPI.
 
     Returns:
         Settings.
 
     Raises:
-        ArgumentError: another name; a length that is not finite or not above 0; processes below 1; a scene without columns, or
-            with particles given one by one, which have a spacing of their own.
+        ArgumentError: another name; a length that is not finite or not above 0; a scene without columns, or with particles
+            given one by one, which have a spacing of their own.
 
     Example:
         scene = granperi.Scene.read("collapse.toml")
         scene.config = granperi.settings("standard", scene).config(scene.config)
-        print(granperi.settings("standard", scene, processes=4).sleep)
 
     Restrictions:
         With granular fluidity take the smaller of this spacing and half a grain. sleep = 1 ends creep slower than 0.006 sqrt(g
@@ -127,11 +120,6 @@ def settings(name: str, of: "Scene | str | os.PathLike[str] | float", processes:
     length = scene_of(of).smallest_side() if isinstance(of, (Scene, str, os.PathLike)) else number("of", of)
     if not (math.isfinite(length) and length > 0):
         raise ArgumentError(f"of = {length:g}: expected a finite length above 0 m, or a scene")
-    if processes is not None:
-        processes = whole("processes", processes)
-        if processes < 1:
-            raise ArgumentError(f"processes = {processes}: expected 1 or more, or None for a run without MPI")
     level = _LEVELS[name]
-    sleep, cpu_seconds = (level.sleep, level.cpu_seconds) if processes is None else (0, level.cpu_seconds_awake)
-    return Settings(name, length, length / level.spacings, level.horizon, sleep, level.aim, level.peak_error,
-                    level.runout_error, cpu_seconds, processes)
+    return Settings(name, length, length / level.spacings, level.horizon, level.sleep, level.aim, level.peak_error,
+                    level.runout_error, level.cpu_seconds)

@@ -32,7 +32,6 @@ def directory(tmp_path_factory):
     (directory / "empty.gpc").touch()
     (directory / "text.h5").write_text("no numbers\n")
     (directory / "noise.toml").write_bytes(b"[run\xff]\n")
-    (directory / "sleeps.toml").write_text("[run]\nend = 1\n\n[config]\nspacing = 0.01\nsleep = 1\n")
     (directory / "cut.h5").write_bytes((directory / "result.h5").read_bytes()[:5000])
     (directory / "cut.gpc").write_bytes((directory / "result.gpc").read_bytes()[:-100])
     (directory / "interrupted.part").mkdir()
@@ -293,8 +292,6 @@ def test_a_doubtful_scene_is_warned_of(scene, text):
     (("run", "scene.toml", "--output", "new.h5", "--spacing", "0"), 2, "granperi: --spacing 0: expected a number from"),
     (("run", "scene.toml", "--output", "new.h5", "--threads", "-1"), 2, "granperi: --threads -1: expected a whole number from 0 to"),
     (("run", "scene.toml", "--output", "new.h5", "--mpi", "0"), 2, "--mpi 0: expected a number of processes, 1 or more"),
-    (("run", "sleeps.toml", "--mpi", "4"), 2, "sleeps.toml, line 4, [config]: gp_config.sleep = 1: expected 0 with --mpi, nothing sleeps on "
-     "several processes. Set sleep = 0 there, as granperi.settings(..., processes=4) does, or leave it out"),
     (("run", "scene.toml", "--resume", "--overwrite"), 2, "not allowed with argument"),
     (("sweep",), 2, "expected a scene file and at least one --set KEY=VALUE,VALUE"),
     (("sweep", "scene.toml", "--set", "config.spacing"), 2, "expected KEY=VALUE,VALUE"),

@@ -49,18 +49,6 @@ def test_finer_settings_cost_more_and_err_less():
         assert level.aim >= max(level.peak_error, level.runout_error)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_on_several_processes_nothing_sleeps(name):
-    alone, together = granperi.settings(name, 0.04), granperi.settings(name, 0.04, processes=4)
-    assert together.sleep == 0 and together.processes == 4 and alone.processes is None
-    assert together == granperi.settings(name, 0.04, 4) != granperi.settings(name, 0.04, 1)
-    for kept in ("spacing", "horizon", "aim", "peak_error", "runout_error"):  # sleep changes a deposit by less than its scatter
-        assert getattr(together, kept) == getattr(alone, kept)
-    assert together.cpu_seconds > alone.cpu_seconds, "what rests costs as much as what flows"
-    assert "sleep 0, processes 4" in str(together) and f"{together.cpu_seconds:.2g} CPU s" in str(together)
-    assert granperi.settings(name, 0.04, 1).config(granperi.Config(sleep=1)).sleep == 0
-
-
 def test_other_parameters_stay_what_they_are(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(TEXT)
