@@ -26,7 +26,7 @@ template <class Visitor, class W> void visit_common(Visitor &v, W &w) {
     v(w.ledger.plate_work), v(w.ledger.scale), v(w.ledger.largest_kinetic), v(w.ledger.level);
     v(w.constants.gravity.x()), v(w.constants.gravity.y()), v(w.constants.fall_height), v(w.constants.flow_speed);
     v(w.mass), v(w.collisions), v(w.max_compression), v(w.packing_at_start), v(w.retries), v(w.plastic_power);
-    v(w.unbalanced_share), v(w.velocity_span), v(w.fastest), v(w.skin), v(w.shifted), v(w.lists_valid);
+    v(w.unbalanced_share), v(w.velocity_span), v(w.fastest), v(w.skin), v(w.shifted), v(w.closed_in), v(w.lists_valid);
     v(w.walls.ghosts_placed);
     v(w.viscous.newton), v(w.viscous.linear), v(w.viscous.failures), v(w.viscous.last), v(w.viscous.last_residual);
     v.list(w.pieces, [&](auto &piece) { v(piece.end), v(piece.depth); });

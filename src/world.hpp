@@ -11,6 +11,7 @@
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "scene.hpp"
+#include "shift_tiles.hpp"
 #include "sleep.hpp"
 #include "viscous_system.hpp"
 #include "walls.hpp"
@@ -83,7 +84,7 @@ struct StepStart {
     Clock clock;
     Ledger ledger;
     std::vector<Plate> plates;
-    double shifted = 0;
+    double shifted = 0, closed_in = 0;
     bool fields_kept = false;          // the next ones hold the present step's beginning
     std::vector<Field<double>> copied; // of fields that are changed in place
     std::array<Field<double>, 4> made; // of the velocity gradient, made anew: memory is exchanged, not copied
@@ -136,7 +137,9 @@ struct World {
     ListOrigin list_origin;
     Field<int32_t> listed;    // particle of each place in the lists and cells, where a sort was undone; empty: the same
     double skin = 0;          // m
-    double shifted = 0;       // m, bound on the relative shift since the lists were made
+    double shifted = 0;       // m, bound on the relative shift of any two since the lists were made
+    double closed_in = 0;     // m, and on that of those that may come into each other's reach: what makes lists anew
+    ShiftTiles tiles;         // what that is measured in
     double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
     double fastest = 0;       // m/s, bound on any particle's speed
 

@@ -37,6 +37,7 @@ void write_world(CheckpointWriter &file, const World &world) {
     lists.valid = world.lists_valid;
     lists.skin = world.skin;
     lists.shifted = world.shifted;
+    lists.closed_in = world.closed_in;
     for (const Plate::State &state : world.list_origin.plates) {
         lists.plate_x.push_back(state.placed.shift.x());
         lists.plate_y.push_back(state.placed.shift.y());
@@ -130,6 +131,7 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
     const std::size_t n = static_cast<std::size_t>(w.particles.count), plates = w.walls.plates.size();
     check.require(t.skin > 0 && t.skin <= spacing, format_text("skin: %g m", t.skin));
     check.not_negative("shifted", t.shifted);
+    check.not_negative("closed_in", t.closed_in);
     check.same_size("lists/x", origin.x, n);
     check.same_size("lists/y", origin.y, n);
     check.same_size("lists/plate_driven", t.plate_driven, plates);
@@ -265,6 +267,7 @@ std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, 
     world->lists_valid = lists.valid;
     world->lists_new = false;
     world->shifted = lists.shifted;
+    world->closed_in = lists.closed_in;
     return world;
 }
 

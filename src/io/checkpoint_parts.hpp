@@ -163,7 +163,7 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
 // The lists themselves are made anew from where the particles and plates were when they were made.
 struct ListTable {
     bool valid = false;
-    double skin = 0, shifted = 0;
+    double skin = 0, shifted = 0, closed_in = 0;
     std::vector<double> plate_x, plate_y, plate_angle; // shift and turn
     std::vector<int32_t> plate_driven; // by the host: which plates made one wall follows from how they move
     std::vector<double> plate_vx, plate_vy, plate_omega;
@@ -174,6 +174,7 @@ template <class File, class Table, class W> void exchange_lists(File &file, Tabl
     file.value("valid", t.valid);
     file.value("skin", t.skin);
     file.value("shifted", t.shifted);
+    file.value("closed_in", t.closed_in);
     file.array("x", w.list_origin.x);
     file.array("y", w.list_origin.y);
     file.array("plate_x", t.plate_x);

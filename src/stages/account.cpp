@@ -192,6 +192,7 @@ template <bool Adjoint> void close_books(World &world) {
 
     bound_velocities(world, range);
     world.shifted += world.velocity_span * dt;
+    world.closed_in += world.velocity_span * dt;
     for (Plate &plate : world.walls.plates)
         if (plate.gap > 0) {
             const double approach = plate.fastest() + world.fastest;

@@ -12,7 +12,7 @@ LAYERS = [
     ["sleep"],
     ["viscous_system"],
     ["neighbors"],
-    ["halo"],
+    ["halo", "shift_tiles"],
     ["periodic"],
     ["segment_cells"],
     ["clusters", "cluster_rows"],
