@@ -34,6 +34,7 @@ public:
     void copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
                          Field<float> &crowded) const;
     void copy_motion(Particles &particles) const; // positions and velocities
+    void copy_all(Particles &particles) const;    // all that a step begins with
 
     // The particle that an index of the neighbour lists stands for; not of a part of a world.
     int64_t source(int64_t index) const { return index < first_ ? index : source_[index - first_]; }
@@ -46,7 +47,6 @@ public:
 private:
     template <class CellOf>
     void put_in_order_of_cells(const CellGrid &grid, const std::vector<int64_t> &id, const CellOf &cell_of);
-    void copy_all(Particles &particles) const;
 
     int64_t first_ = INT64_MAX; // number of particles, once there are images
     CellGrid cells_;

@@ -284,14 +284,8 @@ Progress Sim::progress() const {
 
 void Sim::resume(std::unique_ptr<World> world, const Progress &progress) {
     epoch_ = progress.epoch;
-    if (crossing_) {
-        if (progress.started) {
-            set_world(deal_out(scene_, *crossing_, world.get()));
-            know_whole(std::move(world));
-        }
-    } else if (world) {
+    if (world)
         set_world(std::move(world));
-    }
     started_ = progress.started;
     diverged_ = progress.diverged;
     warnings_.set_told(progress.told);

@@ -61,7 +61,7 @@ public:
     // The world of all processes: on the first of them, elsewhere NULL. A process alone has it anyway.
     const World *whole();
     Crossing *crossing() const { return crossing_.get(); }
-    // Goes on from a checkpoint: world is that of this scene, NULL before the first step.
+    // Goes on from a checkpoint: world is that of this scene, or the part of it; NULL before the first step.
     void resume(std::unique_ptr<World> world, const Progress &progress);
     void set_plate_start(int32_t plate, const Vector &start, double angle) {
         scene_.set_plate_start(plate, start, angle);

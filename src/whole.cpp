@@ -111,13 +111,8 @@ void finish(World &w, const std::vector<double> &common) {
     if (w.walls.ghosts_placed)
         w.walls.place_ghosts(w.threads);
     w.lists_new = false;
-    if (w.images.in_use()) {
-        w.images.copy_motion(w.particles);
-        Particles &p = w.particles;
-        w.images.copy({&p.density, &p.pressure, &p.sxx, &p.sxy});
-        if (!p.fluidity.empty())
-            w.images.copy(p.fluidity);
-    }
+    if (w.images.in_use())
+        w.images.copy_all(w.particles);
 }
 
 // Rows of so many numbers that the first process has: each process asks it for some at a time, by keys of its own. Body row(key,
@@ -196,11 +191,17 @@ void take_fields(const std::vector<Field<double> *> &fields, int64_t i, const do
 
 } // namespace
 
-// Each begins with an equal share; from there particles go to their owners.
-std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const World *whole) {
+std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing) {
     auto part = make_bare_world(scene, scene.constants(), 1); // fields in use have a size
     part->crossing = &crossing;
     part->halo = std::make_unique<Halo>(crossing);
+    part->mass = mass_of_all(*part);
+    return part;
+}
+
+// Each begins with an equal share; from there particles go to their owners.
+std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const World *whole) {
+    auto part = make_part(scene, crossing);
     const std::vector<double> common = common_of_first(crossing, whole);
     set_common(*part, common, true);
     int64_t all = whole ? whole->particles.count : 0;

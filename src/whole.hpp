@@ -12,6 +12,9 @@ namespace gp {
 // GP_E_UNSUPPORTED if a scene cannot be worked on in parts.
 void require_partable(const Scene &scene);
 
+// The part of a process, plates where they begin, without particles.
+std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing);
+
 // The part of each process. whole: on the first process the world with its lists, elsewhere NULL.
 std::unique_ptr<World> deal_out(const Scene &scene, Crossing &crossing, const World *whole);
 

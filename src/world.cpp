@@ -34,6 +34,16 @@ std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &cons
     return world;
 }
 
+double mass_of_all(const World &world) {
+    double mass = 0; // added up particle by particle
+    for (const Body &body : world.scene->bodies()) {
+        const double own = world.constants.materials[body.material].density * world.constants.volume;
+        for (int64_t k = 0; k < body.count; ++k)
+            mass += own;
+    }
+    return mass;
+}
+
 std::unique_ptr<World> make_world(const Scene &scene) {
     std::unique_ptr<World> world = make_bare_world(scene, scene.constants(), scene.particle_count());
     const Constants &c = world->constants;
@@ -51,8 +61,7 @@ std::unique_ptr<World> make_world(const Scene &scene) {
         p.sxy[i] = stress[i].sxy;
         p.density[i] = world->material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);
     }
-    for (int64_t i = 0; i < p.count; ++i)
-        world->mass += world->material_of(i).density * p.volume;
+    world->mass = mass_of_all(*world);
     world->walls.place_plates(0, c.spacing / c.wave_speed);
     return world;
 }

@@ -169,6 +169,8 @@ struct World {
 
 // With room for so many particles, plates where they begin.
 std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &constants, int64_t count);
+// kg/m, of all particles of its scene, whoever has them.
+double mass_of_all(const World &world);
 // The world of a scene before its first step: particles and plates in place, no lists yet.
 std::unique_ptr<World> make_world(const Scene &scene);
 
