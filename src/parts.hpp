@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 #include <type_traits>
 
@@ -12,8 +13,17 @@
 
 namespace gp {
 
+// GP_E_UNSUPPORTED if a scene cannot be worked on in parts.
+void require_partable(const Scene &scene);
+// The part of a process, without particles.
+std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing);
+// That with an equal share of the scene's particles, as they begin: with the first lists they go to their owners.
+std::unique_ptr<World> begin_part(const Scene &scene, Crossing &crossing);
+
 // The sum of a number of each process, J/m.
 double sum_of_all(const World &world, double energy);
+
+int64_t sum_of_all(Crossing &crossing, int64_t count);
 
 // Sums, and the largest of a number of each process: of all.
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest);

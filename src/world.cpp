@@ -44,25 +44,31 @@ double mass_of_all(const World &world) {
     return mass;
 }
 
-std::unique_ptr<World> make_world(const Scene &scene) {
-    std::unique_ptr<World> world = make_bare_world(scene, scene.constants(), scene.particle_count());
-    const Constants &c = world->constants;
-    Particles &p = world->particles;
-    const std::vector<InitialStress> stress = scene.initial_stress(c);
+void begin_particles(World &world, int64_t first) {
+    const Scene &scene = *world.scene;
+    const Constants &c = world.constants;
+    Particles &p = world.particles;
+    const std::vector<InitialStress> stress = scene.initial_stress(c, first, first + p.count);
     for (int64_t i = 0; i < p.count; ++i) {
-        p.id[i] = i;
-        p.column[i] = scene.column[i];
-        p.x[i] = scene.x[i];
-        p.y[i] = scene.y[i];
-        p.vx[i] = scene.vx[i];
-        p.vy[i] = scene.vy[i];
+        const int64_t id = first + i;
+        p.id[i] = id;
+        p.column[i] = scene.column[id];
+        p.x[i] = scene.x[id];
+        p.y[i] = scene.y[id];
+        p.vx[i] = scene.vx[id];
+        p.vy[i] = scene.vy[id];
         p.pressure[i] = stress[i].pressure;
         p.sxx[i] = stress[i].sxx;
         p.sxy[i] = stress[i].sxy;
-        p.density[i] = world->material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);
+        p.density[i] = world.material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);
     }
-    world->mass = mass_of_all(*world);
-    world->walls.place_plates(0, c.spacing / c.wave_speed);
+    world.mass = mass_of_all(world);
+    world.walls.place_plates(0, c.spacing / c.wave_speed);
+}
+
+std::unique_ptr<World> make_world(const Scene &scene) {
+    std::unique_ptr<World> world = make_bare_world(scene, scene.constants(), scene.particle_count());
+    begin_particles(*world, 0);
     return world;
 }
 

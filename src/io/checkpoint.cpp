@@ -12,7 +12,6 @@
 #include "parts.hpp"
 #include "stages/stages.hpp"
 #include "stretches.hpp"
-#include "whole.hpp"
 #endif
 
 namespace gp::io {
@@ -370,8 +369,8 @@ void require_whole(const CheckpointReader &file, Crossing *crossing) {
 
 } // namespace
 
-void load_checkpoint(const std::string &path, Crossing *crossing,
-                     const std::function<Sim &(const gp_config &)> &create, OutputPosition &position) {
+void load_checkpoint(const std::string &path, Crossing *crossing, const std::function<Sim &(const gp_config &)> &create,
+                     OutputPosition &position) {
     Session session;
     CheckpointReader file(path);
     require_whole(file, crossing);

@@ -17,7 +17,7 @@ void save_checkpoint(const std::string &path, const Sim &sim, const World *world
 // create: makes the simulation of a config that has been read, before the rest is put into it. All numbers are checked as
 // those of a host; throws gp::Error, GP_E_IO or GP_E_VERSION for a file that is no good. crossing: of the simulation; NULL for a
 // process alone.
-void load_checkpoint(const std::string &path, Crossing *crossing,
-                     const std::function<Sim &(const gp_config &)> &create, OutputPosition &position);
+void load_checkpoint(const std::string &path, Crossing *crossing, const std::function<Sim &(const gp_config &)> &create,
+                     OutputPosition &position);
 
 } // namespace gp::io

@@ -32,7 +32,8 @@ public:
             finite(what, value);
     }
     void finite(const char *what, double value) const {
-        require_each(std::isfinite(value), [&] { return format_text("%s: %g, expected a finite number", what, value); });
+        require_each(std::isfinite(value),
+                     [&] { return format_text("%s: %g, expected a finite number", what, value); });
     }
     void not_negative(const char *what, double value) const {
         require(std::isfinite(value) && value >= 0, format_text("%s: %g, expected a number >= 0", what, value));

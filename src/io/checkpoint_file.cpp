@@ -10,7 +10,7 @@ namespace gp::io {
 
 namespace {
 
-constexpr std::size_t text_size = 512; // of the user block
+constexpr std::size_t text_size = 512;                   // of the user block
 constexpr std::size_t piece_size = std::size_t{1} << 18; // of a file that is read for its checksum
 constexpr char title[] = "granperi checkpoint\n";
 constexpr unsigned char hdf5_signature[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
@@ -81,8 +81,8 @@ struct Said {
 };
 
 Said check_text(const std::string &path, const std::string &text, uint64_t size_of_file) {
-    const bool is_hdf5 = text.size() >= sizeof hdf5_signature &&
-                         std::memcmp(text.data(), hdf5_signature, sizeof hdf5_signature) == 0;
+    const bool is_hdf5 =
+        text.size() >= sizeof hdf5_signature && std::memcmp(text.data(), hdf5_signature, sizeof hdf5_signature) == 0;
     if (text.compare(0, sizeof title - 1, title) != 0)
         throw bad_file(path, is_hdf5 ? "an HDF5 file, but not a checkpoint of granperi (gp_save)"
                                      : "not a checkpoint of granperi (gp_save)");
@@ -149,7 +149,7 @@ void CheckpointWriter::group(const char *name) {
 Id CheckpointWriter::make_array(const char *name, hid_t stored, std::size_t size) {
     const std::string what = std::string("write ") + name;
     Id how = own(H5Pcreate(H5P_DATASET_CREATE), what);
-    check(H5Pset_obj_track_times(how, false), what); // the same state gives the same bytes,
+    check(H5Pset_obj_track_times(how, false), what);           // the same state gives the same bytes,
     check(H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY), what); // in whatever order they come
     check(H5Pset_fill_time(how, H5D_FILL_TIME_NEVER), what);
     const Id extent = space({size}, {size});
@@ -203,7 +203,8 @@ void CheckpointReader::require_whole() const {
         throw bad_file(path, "the checkpoint is damaged: its checksum is wrong");
     if (said.format == 0)
         throw bad_file(path, "there is no format 0 of checkpoints");
-    if (said.format != checkpoint_format) // what an earlier step left out cannot be made up: volume, walls, sums of the state
+    if (said.format !=
+        checkpoint_format) // what an earlier step left out cannot be made up: volume, walls, sums of the state
         throw make_error(GP_E_VERSION, "%s: written by granperi %s in format %llu; this version, %s, reads format %u",
                          path.c_str(), said.library.c_str(), said.format, gp_version_string(), checkpoint_format);
 }

@@ -74,7 +74,8 @@ public:
         first_ = all_ * rank / ranks;
         count_ = all_ * (rank + 1) / ranks - first_;
         const std::size_t listed = file.size_of<int32_t>("listed");
-        check.require(listed == 0 || listed == static_cast<std::size_t>(all_), "listed: not one value for each particle");
+        check.require(listed == 0 || listed == static_cast<std::size_t>(all_),
+                      "listed: not one value for each particle");
         for_each_listed_array("", "", [&](const char *name, const char *) { require_all<double>(check, name, true); });
         for_each_particle_array(part.particles, [&](const char *name, const auto &field) {
             require_all<typename std::decay_t<decltype(field)>::value_type>(check, name, !field.empty());
@@ -159,13 +160,13 @@ void read_places(const Stretch &stretch, const Checker &check, World &part) {
     stretch.read("column", 0, count, p.column.data());
     for (int64_t i = 0; i < count; ++i) {
         const auto id = static_cast<long long>(p.id[i]);
-        check.require_each(id >= 0 && id < stretch.all(), [&] { return format_text("id: %lld, expected each once", id); });
+        check.require_each(id >= 0 && id < stretch.all(),
+                           [&] { return format_text("id: %lld, expected each once", id); });
         check.require_each(p.column[i] == part.scene->column[id],
                            [] { return std::string("a particle is of another column"); });
     }
-    for_each_listed_array(p.x, p.y, [&](const char *name, Field<double> &field) {
-        stretch.read_listed(name, 0, count, field.data());
-    });
+    for_each_listed_array(
+        p.x, p.y, [&](const char *name, Field<double> &field) { stretch.read_listed(name, 0, count, field.data()); });
     check_list_positions(check, part, count);
     stages::make_lists(part); // they go to their owners
 }
@@ -196,9 +197,8 @@ void check_list_positions(const Checker &check, const World &world, int64_t coun
             check.require_each(std::abs(value) <= farthest_of_lists * world.constants.spacing,
                                [&] { return format_text("lists: a particle at %g m", value); });
         if (const Period &period = world.constants.period)
-            check.require_each(
-                std::abs(p.x[i] - period.x_min - 0.5 * period.length) <= (0.5 + 1e-9) * period.length,
-                [&] { return format_text("lists: a particle at x = %g m, beyond the period", p.x[i]); });
+            check.require_each(std::abs(p.x[i] - period.x_min - 0.5 * period.length) <= (0.5 + 1e-9) * period.length,
+                               [&] { return format_text("lists: a particle at x = %g m, beyond the period", p.x[i]); });
     }
 }
 
@@ -231,9 +231,8 @@ void read_rows(const CheckpointReader &file, const Checker &check, World &part) 
         id.resize(count), column.resize(count), x.resize(count), y.resize(count);
         stretch.read("id", begin, end, id.data());
         stretch.read("column", begin, end, column.data());
-        for_each_listed_array(x, y, [&](const char *name, std::vector<double> &to) {
-            stretch.read_listed(name, begin, end, to.data());
-        });
+        for_each_listed_array(
+            x, y, [&](const char *name, std::vector<double> &to) { stretch.read_listed(name, begin, end, to.data()); });
         for (std::size_t f = 0; f < fields.size(); ++f) {
             values[f].resize(count);
             stretch.read(names[f], begin, end, values[f].data());
