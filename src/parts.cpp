@@ -143,17 +143,30 @@ void run_on_first(Crossing &crossing, const std::function<void()> &body) {
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {
     std::string text;
+    std::vector<double> own, all; // keys
     if (suspect)
         try {
             look();
+        } catch (const Divergence &found) {
+            text = found.what();
+            own.assign(found.key.begin(), found.key.end());
         } catch (const Error &error) {
             text = error.what();
+            own.assign(4, 0.0);
         }
-    const double own = text.empty() ? 0 : 1;
-    double diverged = own;
+    if (!own.empty())
+        own.push_back(world.crossing->rank());
+    double diverged = own.empty() ? 0 : 1;
     world.crossing->combine(&diverged, 1, nullptr, 0);
-    if (diverged > 0)
-        throw Error(GP_E_DIVERGED, text_of_largest(*world.crossing, diverged = own, text));
+    if (diverged == 0)
+        return;
+    world.crossing->gather_everywhere(own, all);
+    const double *least = all.data();
+    for (const double *next = all.data(), *end = next + all.size(); next != end; next += 5)
+        if (std::lexicographical_compare(next, next + 5, least, least + 5))
+            least = next;
+    tell_all_of(*world.crossing, text, static_cast<int>(least[4]));
+    throw Error(GP_E_DIVERGED, text);
 }
 
 // ------------------------------------------------------------------------------------------------------- parts

@@ -2,6 +2,7 @@
 // about single particles).
 #pragma once
 
+#include <array>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <type_traits>
 
 #include "binned_sum.hpp"
+#include "error.hpp"
 #include "world.hpp"
 
 namespace gp {
@@ -94,7 +96,14 @@ private:
     Crossing &crossing_;
     std::exception_ptr failure_;
 };
-// Throws everywhere what look() throws anywhere, by the lowest rank; look() is called where there is something suspect.
+// A step that diverges. key: the place, in the order in which a process alone looks at checks and particles.
+class Divergence : public Error {
+public:
+    Divergence(const Error &error, const std::array<double, 4> &at) : Error(error), key(at) {}
+    std::array<double, 4> key;
+};
+// Throws everywhere what look() throws anywhere: what a process alone would, of what is told apart by no key that of the lowest
+// rank; look() is called where there is something suspect.
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look);
 // The text of the rank with the largest value.
 std::string text_of_largest(Crossing &crossing, double &value, const std::string &text);
