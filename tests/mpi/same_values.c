@@ -17,8 +17,7 @@ static void check(gp_status status, const char *what) {
     }
 }
 
-static void add_column(gp_sim *sim, double x, double y, double width, double height, int32_t material, double vx,
-                       double vy) {
+static void add_column(gp_sim *sim, double x, double y, double width, double height, int32_t material, double vx, double vy) {
     gp_column c;
     check(gp_column_init(&c, sizeof c), "gp_column_init");
     c.x_min = x, c.y_min = y, c.width = width, c.height = height, c.material = material, c.vx = vx, c.vy = vy;
@@ -48,12 +47,8 @@ typedef struct {
     int steps;
 } scene;
 
-static void fine(gp_config *c) {
-    c->spacing = 0.0025;
-}
-static void collapse(gp_sim *s) {
-    add_column(s, -0.04, 0, 0.08, 0.05, 0, 0, 0), floor_of(s, -1, 1);
-}
+static void fine(gp_config *c) { c->spacing = 0.0025; }
+static void collapse(gp_sim *s) { add_column(s, -0.04, 0, 0.08, 0.05, 0, 0, 0), floor_of(s, -1, 1); }
 
 static void incline(gp_config *c) {
     const double angle = 26 * acos(-1.0) / 180;
@@ -62,9 +57,7 @@ static void incline(gp_config *c) {
     c->gravity_x = 9.81 * sin(angle), c->gravity_y = -9.81 * cos(angle);
     c->jitter = 0.2, c->seed = 3;
 }
-static void chute(gp_sim *s) {
-    add_column(s, 0.01, 0, 0.16, 0.05, 0, 0.3, 0), floor_of(s, 0.01, 0.17);
-}
+static void chute(gp_sim *s) { add_column(s, 0.01, 0, 0.16, 0.05, 0, 0.3, 0), floor_of(s, 0.01, 0.17); }
 
 /* A loaded rough lid sheared over a layer between a smooth and a rubbing wall. */
 static void box(gp_sim *s) {
@@ -81,9 +74,7 @@ static void box(gp_sim *s) {
     add_plate(s, &p);
 }
 
-static void coarse(gp_config *c) {
-    c->spacing = 0.004;
-}
+static void coarse(gp_config *c) { c->spacing = 0.004; }
 static void lifted(gp_sim *s) {
     static const double t[] = {0, 0.01, 0.05}, x[] = {0, 0, 0}, y[] = {0, 0.004, 0.3};
     add_column(s, 0, 0, 0.12, 0.08, 0, 0, 0);
@@ -110,8 +101,7 @@ static void drum(gp_sim *s) {
 }
 
 static void hopper(gp_sim *s) {
-    const double xl[] = {-0.01, -0.05, -0.05}, yl[] = {0.0, 0.05, 0.2}, xr[] = {0.05, 0.05, 0.01},
-                 yr[] = {0.2, 0.05, 0.0};
+    const double xl[] = {-0.01, -0.05, -0.05}, yl[] = {0.0, 0.05, 0.2}, xr[] = {0.05, 0.05, 0.01}, yr[] = {0.2, 0.05, 0.0};
     add_column(s, -0.05, 0.06, 0.1, 0.08, 0, 0, -0.2);
     gp_plate p = a_plate(0, 0, 0, 0);
     p.n_points = 3, p.point_x = xl, p.point_y = yl;
@@ -143,25 +133,18 @@ static void fluid(gp_sim *s) {
     add_plate(s, &p);
 }
 
-static void channel(gp_config *c) {
-    c->spacing = 0.004, c->channel_width = 0.05, c->channel_friction = 0.2;
-}
+static void channel(gp_config *c) { c->spacing = 0.004, c->channel_width = 0.05, c->channel_friction = 0.2; }
 
 /* Grains that fly far away, and a thin layer: ranks thinner than what they see of each other. */
 static void fragments(gp_sim *s) {
-    const double x[] = {-0.3, 30, 31, 0.7, 0.7004}, y[] = {0.1, 40, 41, 0.01, 0.013}, vx[] = {1, 3, 3, 0, 0},
-                 vy[] = {0, 1, 1, 0, 0};
+    const double x[] = {-0.3, 30, 31, 0.7, 0.7004}, y[] = {0.1, 40, 41, 0.01, 0.013}, vx[] = {1, 3, 3, 0, 0}, vy[] = {0, 1, 1, 0, 0};
     add_column(s, -0.04, 0, 0.08, 0.04, 0, 0, 0);
     check(gp_add_particles(s, 0, rank == 0 ? 5 : 0, x, y, vx, vy, NULL), "gp_add_particles");
     floor_of(s, -1, 1);
 }
 
-static void few(gp_config *c) {
-    c->spacing = 0.01;
-}
-static void handful(gp_sim *s) {
-    add_column(s, -0.01, 0.01, 0.02, 0.03, 0, 0.1, -0.5), floor_of(s, -1, 1);
-}
+static void few(gp_config *c) { c->spacing = 0.01; }
+static void handful(gp_sim *s) { add_column(s, -0.01, 0.01, 0.02, 0.03, 0, 0.1, -0.5), floor_of(s, -1, 1); }
 
 /* Plates with material behind them, that hide it. */
 static void wall_within(gp_sim *s) {
@@ -174,49 +157,24 @@ static void wall_within(gp_sim *s) {
     add_plate(s, &p);
 }
 
-static void blow(gp_config *c) {
-    c->spacing = 0.004, c->sound_speed = 4, c->retry_halvings = 4, c->time_step = 0.0008, c->allow_unstable_step = 1;
-}
-static void thrown(gp_sim *s) {
-    add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -2.5), floor_of(s, -1, 1);
-}
+static void blow(gp_config *c) { c->spacing = 0.004, c->sound_speed = 4, c->retry_halvings = 4, c->time_step = 0.0008, c->allow_unstable_step = 1; }
+static void thrown(gp_sim *s) { add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -2.5), floor_of(s, -1, 1); }
 
-static void thrown_hard(gp_sim *s) {
-    add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -6), floor_of(s, -1, 1);
-}
+static void thrown_hard(gp_sim *s) { add_column(s, -0.05, 0.004, 0.1, 0.05, 0, 0.5, -6), floor_of(s, -1, 1); }
 
 /* The implicit scheme: its iterations go by sums over all. */
-static void implicit(gp_config *c) {
-    c->spacing = 0.004, c->stress = GP_STRESS_IMPLICIT;
-}
-static void implicit_incline(gp_config *c) {
-    incline(c), c->stress = GP_STRESS_IMPLICIT;
-}
-static void implicit_few(gp_config *c) {
-    few(c), c->stress = GP_STRESS_IMPLICIT;
-}
+static void implicit(gp_config *c) { c->spacing = 0.004, c->stress = GP_STRESS_IMPLICIT; }
+static void implicit_incline(gp_config *c) { incline(c), c->stress = GP_STRESS_IMPLICIT; }
+static void implicit_few(gp_config *c) { few(c), c->stress = GP_STRESS_IMPLICIT; }
 
 static const scene scenes[] = {
-    {"collapse", fine, collapse, 400},
-    {"chute", incline, chute, 300},
-    {"box", coarse, box, 300},
-    {"lifted", coarse, lifted, 300},
-    {"drum", coarse, drum, 300},
-    {"hopper", coarse, hopper, 300},
-    {"two", coarse, two_materials, 300},
-    {"fluid", coarse, fluid, 300},
-    {"channel", channel, collapse, 300},
-    {"fragments", coarse, fragments, 300},
-    {"handful", few, handful, 300},
-    {"within", coarse, wall_within, 300},
-    {"thrown", blow, thrown, 200},
-    {"diverging", blow, thrown_hard, 200},
-    {"implicit", implicit, collapse, 60},
-    {"implicit_chute", implicit_incline, chute, 20},
-    {"implicit_box", implicit, box, 6},
-    {"implicit_drum", implicit, drum, 40},
-    {"implicit_two", implicit, two_materials, 6},
-    {"implicit_fragments", implicit, fragments, 40},
+    {"collapse", fine, collapse, 400}, {"chute", incline, chute, 300},        {"box", coarse, box, 300},
+    {"lifted", coarse, lifted, 300},   {"drum", coarse, drum, 300},           {"hopper", coarse, hopper, 300},
+    {"two", coarse, two_materials, 300}, {"fluid", coarse, fluid, 300},       {"channel", channel, collapse, 300},
+    {"fragments", coarse, fragments, 300}, {"handful", few, handful, 300},    {"within", coarse, wall_within, 300},
+    {"thrown", blow, thrown, 200},        {"diverging", blow, thrown_hard, 200},
+    {"implicit", implicit, collapse, 60}, {"implicit_chute", implicit_incline, chute, 20}, {"implicit_box", implicit, box, 6},
+    {"implicit_drum", implicit, drum, 40}, {"implicit_two", implicit, two_materials, 6}, {"implicit_fragments", implicit, fragments, 40},
     {"implicit_handful", implicit_few, handful, 60},
 };
 
@@ -266,8 +224,7 @@ static void compare_loads(const scene *s, gp_sim *alone, gp_sim *together) {
         if (gp_get_plate_load(alone, plate, &a) < 0)
             break;
         check(gp_get_plate_load(together, plate, &b), "gp_get_plate_load");
-        EQUAL(fx), EQUAL(fy), EQUAL(torque), EQUAL(dx), EQUAL(dy), EQUAL(impulse_x), EQUAL(impulse_y),
-            EQUAL(torque_pivot);
+        EQUAL(fx), EQUAL(fy), EQUAL(torque), EQUAL(dx), EQUAL(dy), EQUAL(impulse_x), EQUAL(impulse_y), EQUAL(torque_pivot);
         EQUAL(angle), EQUAL(impulse_torque);
     }
 }
@@ -295,10 +252,8 @@ static void compare_shapes(const scene *s, gp_sim *alone, gp_sim *together, cons
 }
 
 static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
-    static const uint32_t fields[] = {
-        GP_FIELD_X,        GP_FIELD_Y,     GP_FIELD_VX,  GP_FIELD_VY,         GP_FIELD_PRESSURE,
-        GP_FIELD_DENSITY,  GP_FIELD_SXX,   GP_FIELD_SXY, GP_FIELD_SHEAR_RATE, GP_FIELD_NUMBER_DENSITY,
-        GP_FIELD_FLUIDITY, GP_FIELD_COLUMN};
+    static const uint32_t fields[] = {GP_FIELD_X,   GP_FIELD_Y,   GP_FIELD_VX,         GP_FIELD_VY,             GP_FIELD_PRESSURE,       GP_FIELD_DENSITY,
+                                      GP_FIELD_SXX, GP_FIELD_SXY, GP_FIELD_SHEAR_RATE, GP_FIELD_NUMBER_DENSITY, GP_FIELD_FLUIDITY,       GP_FIELD_COLUMN};
     const gp_state b = state_of(together);
     const int64_t n = b.n_particles;
     double *theirs = malloc(sizeof(double) * (size_t)n), *ours = malloc(sizeof(double) * (size_t)n);
@@ -310,8 +265,7 @@ static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
         for (int64_t k = 0; k < n; ++k)
             if (ours[k] != theirs[k]) {
                 char what[64];
-                snprintf(what, sizeof what, "step %lld, field 0x%x of %lld", (long long)b.step, (unsigned)fields[f],
-                         (long long)k);
+                snprintf(what, sizeof what, "step %lld, field 0x%x of %lld", (long long)b.step, (unsigned)fields[f], (long long)k);
                 differ(s, what, ours[k], theirs[k]);
                 break;
             }
@@ -326,8 +280,7 @@ static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
     EQUAL(momentum_x), EQUAL(momentum_y), EQUAL(max_speed), EQUAL(rms_speed), EQUAL(x_left), EQUAL(x_right);
     EQUAL(peak_x), EQUAL(peak_height), EQUAL(max_pressure), EQUAL(at_rest), EQUAL(collisions), EQUAL(retries);
     EQUAL(max_compression), EQUAL(x_q05), EQUAL(x_q50), EQUAL(detached), EQUAL(volume_drift);
-    EQUAL(implicit_newton), EQUAL(implicit_linear), EQUAL(implicit_last), EQUAL(implicit_failures),
-        EQUAL(implicit_residual);
+    EQUAL(implicit_newton), EQUAL(implicit_linear), EQUAL(implicit_last), EQUAL(implicit_failures), EQUAL(implicit_residual);
     CLOSE(dissipated), CLOSE(plate_work), CLOSE(wall_dissipated), CLOSE(bulk_dissipated), CLOSE(energy_error);
     compare_loads(s, alone, together);
 }
