@@ -53,6 +53,12 @@ double sum_of_all(const World &world, double energy) {
     return sums.take(energy_scale(world));
 }
 
+int64_t sum_of_all(Crossing &crossing, int64_t count) {
+    Whole all = count;
+    crossing.combine(nullptr, 0, &all, 1);
+    return static_cast<int64_t>(all);
+}
+
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest) {
     constexpr int most = 4;
     std::array<Whole, most * bins::count> wholes;
@@ -137,17 +143,57 @@ void run_on_first(Crossing &crossing, const std::function<void()> &body) {
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {
     std::string text;
+    std::vector<double> own, all; // keys
     if (suspect)
         try {
             look();
+        } catch (const Divergence &found) {
+            text = found.what();
+            own.assign(found.key.begin(), found.key.end());
         } catch (const Error &error) {
             text = error.what();
+            own.assign(4, 0.0);
         }
-    const double own = text.empty() ? 0 : 1;
-    double diverged = own;
+    if (!own.empty())
+        own.push_back(world.crossing->rank());
+    double diverged = own.empty() ? 0 : 1;
     world.crossing->combine(&diverged, 1, nullptr, 0);
-    if (diverged > 0)
-        throw Error(GP_E_DIVERGED, text_of_largest(*world.crossing, diverged = own, text));
+    if (diverged == 0)
+        return;
+    world.crossing->gather_everywhere(own, all);
+    const double *least = all.data();
+    for (const double *next = all.data(), *end = next + all.size(); next != end; next += 5)
+        if (std::lexicographical_compare(next, next + 5, least, least + 5))
+            least = next;
+    tell_all_of(*world.crossing, text, static_cast<int>(least[4]));
+    throw Error(GP_E_DIVERGED, text);
+}
+
+// ------------------------------------------------------------------------------------------------------- parts
+
+void require_partable(const Scene &scene) {
+    const gp_config &config = scene.config();
+    if (by_number_density(scheme_of(config)))
+        throw make_error(GP_E_UNSUPPORTED, "gp_config.preset: expected the default or the implicit scheme with several "
+                                           "processes, not one of the paper's");
+    if (config.sleep != 0)
+        throw make_error(GP_E_UNSUPPORTED, "gp_config.sleep = 1: expected 0 with several processes");
+}
+
+std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing) {
+    auto part = make_bare_world(scene, scene.constants(), 1); // fields in use have a size
+    part->crossing = &crossing;
+    part->halo = std::make_unique<Halo>(crossing);
+    part->mass = mass_of_all(*part);
+    return part;
+}
+
+std::unique_ptr<World> begin_part(const Scene &scene, Crossing &crossing) {
+    auto part = make_part(scene, crossing);
+    const int64_t all = scene.particle_count(), first = all * crossing.rank() / crossing.ranks();
+    resize_part(*part, all * (crossing.rank() + 1) / crossing.ranks() - first);
+    begin_particles(*part, first);
+    return part;
 }
 
 // -------------------------------------------------------------------------------------------------- migration

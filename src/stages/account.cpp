@@ -127,7 +127,13 @@ BlockSums sum_of_blocks(const World &world) {
 
 void measure_velocities(World &world) {
     measure_blocks(world);
-    bound_velocities(world, range_of_blocks(world));
+    BlockRange range = range_of_blocks(world);
+    if (world.crossing) {
+        double far[] = {-range.u_min, range.u_max, -range.v_min, range.v_max};
+        world.crossing->combine(far, 4, nullptr, 0);
+        range = {-far[0], far[1], -far[2], far[3]};
+    }
+    bound_velocities(world, range);
 }
 
 namespace {

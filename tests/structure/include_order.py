@@ -23,7 +23,6 @@ LAYERS = [
     ["mirrors"],
     ["world", "awake", "ledger", "undo", "volume_drift", "parts", "stretches"],
     ["stages/*"],
-    ["whole"],
     ["plan", "plan_implicit", "plan_paper", "stage_rows", "mistakes", "warnings"],
     ["sim", "sim_scene"],
     ["sort_by_x", "fields", "diagnostics", "diagnostics_mass", "diagnostics_rest", "diagnostics_shape", "diagnostics_surface", "io/*"],
