@@ -212,14 +212,11 @@ gp_status gp_save(gp_sim *sim, const char *path) {
         require_simulation(sim);
         require_pointer("path", path);
         Sim &s = sim->sim;
-        const auto save = [&](const World *world) {
-            io::save_checkpoint(path, s, world, sim->output ? sim->output->position(s.world()) : sim->left_off);
-        };
         const bool started = s.progress().started;
         if (started || sim->output) // the place in the file is told by the world
             s.prepare();
-        const World *whole = started ? s.whole() : nullptr;
-        on_first(s.crossing(), [&] { save(whole); });
+        io::save_checkpoint(path, s, started ? &s.world() : nullptr,
+                            sim->output ? sim->output->position(s.world()) : sim->left_off);
         return GP_OK;
     });
 }
@@ -236,7 +233,7 @@ gp_status gp_load_file(const char *path, gp_sim **sim) {
             return loaded->sim;
         };
         io::OutputPosition left_off;
-        io::load_checkpoint(path, create, left_off);
+        io::load_checkpoint(path, nullptr, create, left_off);
         loaded->left_off = std::move(left_off);
         *sim = loaded.release();
         return GP_OK;

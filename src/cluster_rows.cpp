@@ -157,7 +157,7 @@ private:
         std::partial_sum(room.begin(), room.end(), room.begin());
     }
 
-    // The rows of a block, each behind its length; and how many steps they take.
+    // The rows of a block, each behind its length, with all bits turned where it may have long ways; and how many steps they take.
     void draft_block(int64_t first_block, int64_t block) {
         ClusterList::Draft &draft = list_.draft;
         int32_t *at = draft.index.data() + room_of(first_block, block);
@@ -170,9 +170,10 @@ private:
             if (!barriers_.segments.empty())
                 list_.partly_seen[c] = look_through(p_, barriers_, tolerance_, list_.first[c], list_.first[c + 1],
                                                     begin, n, draft.seen_by.data() + (begin - draft.index.data()));
-            *at = static_cast<int32_t>(n);
+            const bool may_be_long = may_have_long_way(begin, n, list_.first[c]);
+            *at = static_cast<int32_t>(may_be_long ? ~n : n);
             int64_t steps = n, close_steps = row.close;
-            if (may_have_long_way(begin, n, list_.first[c])) {
+            if (may_be_long) {
                 steps = close_steps = 0;
                 walk(begin, n, false, c, lanes, [&](int32_t, int64_t) { ++steps; });
                 walk(begin, n, true, c, lanes, [&](int32_t, int64_t) { ++close_steps; });
@@ -255,23 +256,42 @@ private:
     void place_block(int64_t first_block, int64_t block) {
         const int32_t *at = list_.draft.index.data() + room_of(first_block, block);
         for (int64_t c = list_.cluster_of_block[block]; c < list_.cluster_of_block[block + 1]; ++c) {
-            const int64_t n = *at;
-            place_row(list_.all, false, c, at + 1, n);
-            place_row(list_.close, true, c, at + 1, n);
+            const bool may_be_long = *at < 0;
+            const int64_t n = may_be_long ? ~*at : *at;
+            if (may_be_long || (!list_.partly_seen.empty() && list_.partly_seen[c])) {
+                walk_row(list_.all, false, c, at + 1, n);
+                walk_row(list_.close, true, c, at + 1, n);
+            } else {
+                place_row(c, at + 1, n);
+            }
             at += 1 + n;
         }
     }
 
-    void place_row(ClusterRows &rows, bool close, int64_t c, const int32_t *row, int64_t n) {
+    // Both rows of a cluster, step by step; without branches, since which entries are close no processor foresees.
+    void place_row(int64_t c, const int32_t *__restrict row, int64_t n) {
+        const int32_t first = list_.first[c];
+        int16_t *__restrict step = list_.all.step.data() + list_.all.start[c];
+        step[0] = static_cast<int16_t>(place_of(row[0]) - first);
+        for (int64_t k = 1; k < n; ++k)
+            step[k] = static_cast<int16_t>(place_of(row[k]) - place_of(row[k - 1]));
+        step = list_.close.step.data() + list_.close.start[c];
+        const int16_t *const end = list_.close.step.data() + list_.close.start[c + 1];
+        int32_t at = first;
+        for (int64_t k = 0; step < end; ++k) { // what is not close is written, too, and then what follows in its place
+            const int32_t is_close = row[k] >> 31, j = row[k] ^ is_close;
+            *step = static_cast<int16_t>(j - at);
+            step -= is_close;
+            at += is_close & (j - at);
+        }
+    }
+
+    // A row some of whose entries not all of its lanes see, or with long ways.
+    void walk_row(ClusterRows &rows, bool close, int64_t c, const int32_t *row, int64_t n) {
         const bool partly = !list_.partly_seen.empty() && list_.partly_seen[c];
         int16_t *const steps = rows.step.data() + rows.start[c];
         uint8_t *const seen_by = partly ? rows.seen_by.data() + rows.start[c] : nullptr;
         const uint8_t *const drafted = partly ? list_.draft.seen_by.data() + (row - list_.draft.index.data()) : nullptr;
-        if (!close && !partly && rows.start[c + 1] - rows.start[c] == n) { // no long ways
-            for (int64_t k = 0; k < n; ++k)
-                steps[k] = static_cast<int16_t>(place_of(row[k]) - (k > 0 ? place_of(row[k - 1]) : list_.first[c]));
-            return;
-        }
         int64_t entry = 0;
         walk(row, n, close, c, lanes_of(c), [&](int32_t step, int64_t k) {
             if (partly)

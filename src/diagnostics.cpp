@@ -102,7 +102,10 @@ gp_state measure_sums(const World &world) {
     s.implicit_residual = world.viscous.last_residual;
 
     StateSums sums(world);
-    const std::vector<char> asleep(p.asleep.begin(), p.asleep.begin() + (p.asleep.empty() ? 0 : p.count));
+    std::vector<char> asleep;
+    if (world.sleep.in_use)
+        for (int64_t i = 0; i < p.count; ++i)
+            asleep.push_back(p.repose.asleep[i] != 0);
     for_each_stretch(world, asleep, [&](const World &stretch, const char *flags) {
         sums.add(stretch, world.sleep.in_use ? flags : nullptr);
     });

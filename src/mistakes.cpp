@@ -1,9 +1,11 @@
 #include "mistakes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "error.hpp"
+#include "parts.hpp"
 #include "scene_falls.hpp"
 #include "sight.hpp"
 
@@ -47,20 +49,62 @@ bool is_faced(const World &world, const Segment &behind, const Vector &at) {
     return faced;
 }
 
+// A particle seen from a segment. key: its place in the order in which a process alone goes through segments and particles.
+struct Sighting {
+    std::array<double, 5> key; // segment, image, row, column, id
+    double x, y, body;
+
+    static constexpr int64_t numbers = 8;
+    void pack(std::vector<double> &out) const {
+        out.insert(out.end(), key.begin(), key.end());
+        out.insert(out.end(), {x, y, body});
+    }
+    explicit Sighting(const double *n) : key{n[0], n[1], n[2], n[3], n[4]}, x(n[5]), y(n[6]), body(n[7]) {}
+    Sighting(const std::array<double, 5> &at, double px, double py, double of) : key(at), x(px), y(py), body(of) {}
+};
+
 struct Sides {
     int64_t front = 0, behind = 0; // particles near the plate
-    int64_t first = -1;            // of those behind
-    int32_t split = -1;            // a body that has particles on both sides
+    // The first of those behind; the last of a body that has particles on both sides, if there is one.
+    Sighting first{{INFINITY}, 0, 0, -1}, split{{-INFINITY}, 0, 0, -1};
+
+    void take_first(const Sighting &one) {
+        if (one.key < first.key)
+            first = one;
+    }
+    void take_split(const Sighting &one) {
+        if (split.key < one.key)
+            split = one;
+    }
 };
+
+// Those of all processes.
+void combine_sides(Crossing &crossing, std::vector<Sides> &found) {
+    for (Sides &sides : found) {
+        sides.front = sum_of_all(crossing, sides.front);
+        sides.behind = sum_of_all(crossing, sides.behind);
+        if (sides.behind == 0)
+            continue;
+        std::vector<double> own, all;
+        sides.first.pack(own);
+        sides.split.pack(own);
+        crossing.gather_everywhere(own, all);
+        for (std::size_t at = 0; at < all.size(); at += 2 * Sighting::numbers) {
+            sides.take_first(Sighting(&all[at]));
+            sides.take_split(Sighting(&all[at + Sighting::numbers]));
+        }
+    }
+}
 
 std::vector<Sides> find_sides(const World &world) {
     const Particles &p = world.particles;
     const double spacing = world.constants.spacing, reach = world.constants.reach + look_behind * spacing;
     std::vector<Sides> found(world.walls.plates.size());
-    std::vector<uint8_t> in_front(world.scene->bodies().size());
+    std::vector<double> in_front(world.scene->bodies().size()); // 1 or 0
+    double segment = 0;
     for_each_segment(world.walls, [&](int32_t plate, const Segment &s) {
         Sides &sides = found[plate];
-        std::fill(in_front.begin(), in_front.end(), uint8_t{0});
+        std::fill(in_front.begin(), in_front.end(), 0.0);
         const auto for_each_beside = [&](const auto &visit) {
             for_each_about(world, s, reach, [&](int64_t i, const Vector &at) {
                 if (std::abs(s.distance(at)) < reach && s.covers(s.along(at), 0))
@@ -73,15 +117,25 @@ std::vector<Sides> find_sides(const World &world) {
                 in_front[p.column[i]] = 1;
             }
         });
+        if (world.crossing)
+            world.crossing->combine(in_front.data(), static_cast<int>(in_front.size()), nullptr, 0);
         for_each_beside([&](int64_t i, const Vector &at) {
             if (s.distance(at) > -penetration_allowed * spacing || is_faced(world, s, at))
                 return;
-            if (sides.behind++ == 0)
-                sides.first = i;
-            if (in_front[p.column[i]])
-                sides.split = p.column[i];
+            const Cell cell = world.grid.frame().cell_of(p.x[i], p.y[i]);
+            const double image = at.x() > p.x[i] ? 1 : at.x() < p.x[i] ? -1 : 0;
+            const Sighting here({segment, image, static_cast<double>(cell.row), static_cast<double>(cell.column),
+                                 static_cast<double>(p.id[i])},
+                                p.x[i], p.y[i], p.column[i]);
+            ++sides.behind;
+            sides.take_first(here);
+            if (in_front[p.column[i]] > 0)
+                sides.take_split(here);
         });
+        ++segment;
     });
+    if (world.crossing)
+        combine_sides(*world.crossing, found);
     return found;
 }
 
@@ -99,8 +153,8 @@ void tell_sides(const World &world, std::vector<std::string> &texts) {
             text += format_text(" (and so of %lld more plates)", static_cast<long long>(count - 1));
         texts.push_back(std::move(text));
     };
-    const auto place_of = [&](const Sides &sides) {
-        return format_text("the first at (%g, %g) m", world.particles.x[sides.first], world.particles.y[sides.first]);
+    const auto place_of = [](const Sides &sides) {
+        return format_text("the first at (%g, %g) m", sides.first.x, sides.first.y);
     };
     tell([](const Sides &s) { return s.behind > 0 && s.front == 0; },
          [&](int plate, const Sides &s) {
@@ -109,14 +163,14 @@ void tell_sides(const World &world, std::vector<std::string> &texts) {
                  "on its other side alone, on the right of the way from end 0 to end 1. Swap its ends?",
                  plate, static_cast<long long>(s.behind), place_of(s).c_str());
          });
-    tell([](const Sides &s) { return s.behind > 0 && s.front > 0 && s.split >= 0; },
+    tell([](const Sides &s) { return s.behind > 0 && s.front > 0 && s.split.body >= 0; },
          [&](int plate, const Sides &s) {
              return format_text(
                  "column %d lies across the line of plate %d, %lld particles behind it, %s: nothing holds "
                  "those. Move the plate or the column",
-                 s.split, plate, static_cast<long long>(s.behind), place_of(s).c_str());
+                 static_cast<int>(s.split.body), plate, static_cast<long long>(s.behind), place_of(s).c_str());
          });
-    tell([](const Sides &s) { return s.behind > 0 && s.front > 0 && s.split < 0; },
+    tell([](const Sides &s) { return s.behind > 0 && s.front > 0 && s.split.body < 0; },
          [&](int plate, const Sides &s) {
              return format_text("%lld particles begin behind plate %d, on the side of its body, %s: it does not act on "
                                 "them. Move them, or add a plate back to back with it that faces them",
@@ -165,7 +219,7 @@ void tell_coarse_fluidity(const Scene &scene, std::vector<std::string> &texts) {
 
 std::vector<std::string> scene_mistakes(const World &world) {
     std::vector<std::string> texts;
-    if (world.particles.count == 0) {
+    if (world.scene->particle_count() == 0) {
         texts.emplace_back("the scene has no material: add a column or particles");
         return texts;
     }
@@ -183,7 +237,8 @@ int64_t count_on_lines(const World &world, double margin) {
                 found[i] = 1;
         });
     });
-    return std::count(found.begin(), found.end(), uint8_t{1});
+    const auto count = static_cast<int64_t>(std::count(found.begin(), found.end(), uint8_t{1}));
+    return world.crossing ? sum_of_all(*world.crossing, count) : count;
 }
 
 std::string lost_particles(const World &world) {

@@ -1,7 +1,6 @@
 #include "particles.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "parallel.hpp"
 
@@ -31,12 +30,8 @@ void Particles::allocate(int64_t n, const Optional &use) {
     if (use.fluidity)
         for (Field<double> *field : {&fluidity, &fluid_seen, &fluid_pull, &fluid_pace})
             field->resize(size);
-    if (use.sleep) {
-        repose.resize(size);
-        asleep.resize(size);
-        scratch_repose_.resize(size);
-        scratch_uint8_.resize(size);
-    }
+    if (use.sleep)
+        Repose::for_each(repose, [&](const char *, Field<double> &field) { field.resize(size); });
 }
 
 void Particles::make_room(int64_t images) {
@@ -55,6 +50,8 @@ void Particles::make_room(int64_t images) {
           &lyx,    &lyy, &cxx,      &cxy,  &cyx,          &cyy,      &syy,        &ax,          &ay,  &push_x,
           &push_y, &gyy, &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &bearing_flow})
         grow(*field);
+    Repose::for_each(repose,
+                     [&](const char *, Field<double> &field) { grow(field); }); // changes places with ax in a sort
 }
 
 void Particles::resize(int64_t n) {
@@ -69,38 +66,8 @@ void Particles::resize(int64_t n) {
           &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &fluid_pull, &fluid_pace, &bearing_flow})
         if (!field->empty())
             field->resize(size);
-    if (repose.empty())
-        return;
-    repose.resize(size);
-    scratch_repose_.resize(size);
-    asleep.resize(size);
-    scratch_uint8_.resize(size);
-}
-
-void Particles::put_rest(int64_t i, double *out) const {
-    const Repose &r = repose[i];
-    const std::array<double, rest_numbers> numbers = {static_cast<double>(asleep[i]),
-                                                      r.quiet_for,
-                                                      r.way_x,
-                                                      r.way_y,
-                                                      r.pressure,
-                                                      r.sxx,
-                                                      r.sxy,
-                                                      r.fluidity,
-                                                      r.gxx,
-                                                      r.gxy,
-                                                      r.gyy,
-                                                      r.stressed};
-    std::copy(numbers.begin(), numbers.end(), out);
-}
-
-void Particles::take_rest(int64_t i, const double *in) {
-    Repose &r = repose[i];
-    asleep[i] = static_cast<uint8_t>(*in++);
-    for (float *number : {&r.quiet_for, &r.way_x, &r.way_y, &r.pressure, &r.sxx, &r.sxy, &r.fluidity})
-        *number = static_cast<float>(*in++);
-    for (double *number : {&r.gxx, &r.gxy, &r.gyy, &r.stressed})
-        *number = *in++;
+    if (repose.in_use())
+        Repose::for_each(repose, [&](const char *, Field<double> &field) { field.resize(size); });
 }
 
 void Particles::reorder(const Field<int32_t> &old_index, int threads) {
@@ -127,17 +94,11 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
             gather(*field);
             field->swap(ax);
         }
-    const auto gather_items = [&](auto &field, auto &scratch) {
-        for_each_block(threads, count, [&](int64_t, int64_t begin, int64_t end) {
-            for (int64_t i = begin; i < end; ++i)
-                scratch[i] = field[old_index[i]];
+    if (repose.in_use())
+        Repose::for_each(repose, [&](const char *, Field<double> &field) {
+            gather(field);
+            field.swap(ax);
         });
-        field.swap(scratch);
-    };
-    if (repose.empty())
-        return;
-    gather_items(repose, scratch_repose_);
-    gather_items(asleep, scratch_uint8_);
 }
 
 void Particles::give_back_accelerations() {

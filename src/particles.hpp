@@ -29,15 +29,33 @@ inline void hand_over(Field<double> &from, Field<double> &to) {
     to.swap(from);
 }
 
-// What a particle remembers so that it can be told whether it rests (stages/sleep.cpp). Single precision does: it is compared with
-// hundredths.
+// What a particle remembers so that it can be told whether it rests (stages/sleep.cpp), and what it needs while it sleeps; only with
+// gp_config.sleep.
 struct Repose {
-    float quiet_for = 0;                  // s, that it has been quiet
-    float way_x = 0, way_y = 0;           // m, gone since
-    float pressure = 0, sxx = 0, sxy = 0; // Pa, when that began
-    float fluidity = 0;                   // 1/s, likewise
-    double gxx = 0, gxy = 0, gyy = 0;     // 1/m2, the inverse shape tensor, and
-    double stressed = 0;                  // the share of the penalty: of what is quiet, to stay so while it sleeps
+    Field<double> asleep;             // 1 or 0
+    Field<double> quiet_for;          // s, that it has been quiet
+    Field<double> way_x, way_y;       // m, gone since
+    Field<double> pressure, sxx, sxy; // Pa, when that began
+    Field<double> fluidity;           // 1/s, likewise
+    Field<double> gxx, gxy, gyy;      // 1/m2, the inverse shape tensor, and
+    Field<double> stressed;           // the share of the penalty: of what is quiet, to stay so while it sleeps
+
+    bool in_use() const { return !asleep.empty(); }
+    // Calls visit(name, field) for all of them.
+    template <class R, class Visit> static void for_each(R &repose, const Visit &visit) {
+        visit("asleep", repose.asleep);
+        visit("quiet_for", repose.quiet_for);
+        visit("quiet_way_x", repose.way_x);
+        visit("quiet_way_y", repose.way_y);
+        visit("quiet_pressure", repose.pressure);
+        visit("quiet_sxx", repose.sxx);
+        visit("quiet_sxy", repose.sxy);
+        visit("quiet_fluidity", repose.fluidity);
+        visit("quiet_gxx", repose.gxx);
+        visit("quiet_gxy", repose.gxy);
+        visit("quiet_gyy", repose.gyy);
+        visit("quiet_stressed", repose.stressed);
+    }
 };
 
 struct Particles {
@@ -54,8 +72,7 @@ struct Particles {
     Field<double> sxx, sxy; // Pa, deviatoric stress
     Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
 
-    Field<Repose> repose;  // only with gp_config.sleep
-    Field<uint8_t> asleep; // 1 or 0, likewise
+    Repose repose;
 
     Field<double> fluidity; // 1/s, g; only where a material has one (material/fluidity.hpp)
 
@@ -102,11 +119,6 @@ struct Particles {
     // Makes room for images of particles behind the real ones (periodic.hpp) in every field that neighbours read.
     void make_room(int64_t images);
 
-    // What a particle of a scene with sleep carries beside its fields, as numbers.
-    static constexpr int rest_numbers = 12;
-    void put_rest(int64_t i, double *out) const;
-    void take_rest(int64_t i, const double *in);
-
     // Another number of particles, in every field that is in use: those of a part of a world come and go.
     void resize(int64_t n);
 
@@ -117,10 +129,6 @@ struct Particles {
     void give_back_accelerations();
     // After a step that did not come to its end: what lies in the memory of other fields gives it back.
     void give_back(bool stressed_in_shape);
-
-private:
-    Field<Repose> scratch_repose_; // with sleep
-    Field<uint8_t> scratch_uint8_;
 };
 
 } // namespace gp

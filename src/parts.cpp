@@ -55,6 +55,12 @@ double sum_of_all(const World &world, double energy) {
     return sums.take(energy_scale(world));
 }
 
+int64_t sum_of_all(Crossing &crossing, int64_t count) {
+    Whole all = count;
+    crossing.combine(nullptr, 0, &all, 1);
+    return static_cast<int64_t>(all);
+}
+
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest) {
     constexpr int most = 4;
     std::array<Whole, most * bins::count> wholes;
@@ -146,17 +152,55 @@ void run_on_first(Crossing &crossing, const std::function<void()> &body) {
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {
     std::string text;
+    std::vector<double> own, all; // keys
     if (suspect)
         try {
             look();
+        } catch (const Divergence &found) {
+            text = found.what();
+            own.assign(found.key.begin(), found.key.end());
         } catch (const Error &error) {
             text = error.what();
+            own.assign(4, 0.0);
         }
-    const double own = text.empty() ? 0 : 1;
-    double diverged = own;
+    if (!own.empty())
+        own.push_back(world.crossing->rank());
+    double diverged = own.empty() ? 0 : 1;
     world.crossing->combine(&diverged, 1, nullptr, 0);
-    if (diverged > 0)
-        throw Error(GP_E_DIVERGED, text_of_largest(*world.crossing, diverged = own, text));
+    if (diverged == 0)
+        return;
+    world.crossing->gather_everywhere(own, all);
+    const double *least = all.data();
+    for (const double *next = all.data(), *end = next + all.size(); next != end; next += 5)
+        if (std::lexicographical_compare(next, next + 5, least, least + 5))
+            least = next;
+    tell_all_of(*world.crossing, text, static_cast<int>(least[4]));
+    throw Error(GP_E_DIVERGED, text);
+}
+
+// ------------------------------------------------------------------------------------------------------- parts
+
+void require_partable(const Scene &scene) {
+    const gp_config &config = scene.config();
+    if (by_number_density(scheme_of(config)))
+        throw make_error(GP_E_UNSUPPORTED, "gp_config.preset: expected the default or the implicit scheme with several "
+                                           "processes, not one of the paper's");
+}
+
+std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing) {
+    auto part = make_bare_world(scene, scene.constants(), 1); // fields in use have a size
+    part->crossing = &crossing;
+    part->halo = std::make_unique<Halo>(crossing);
+    part->mass = mass_of_all(*part);
+    return part;
+}
+
+std::unique_ptr<World> begin_part(const Scene &scene, Crossing &crossing) {
+    auto part = make_part(scene, crossing);
+    const int64_t all = scene.particle_count(), first = all * crossing.rank() / crossing.ranks();
+    resize_part(*part, all * (crossing.rank() + 1) / crossing.ranks() - first);
+    begin_particles(*part, first);
+    return part;
 }
 
 // -------------------------------------------------------------------------------------------------- migration
@@ -192,26 +236,14 @@ bool is_uneven(World &world) {
 
 } // namespace
 
-Carried::Carried(Particles &p)
-    : particles_(p),
-      fields_({&p.x, &p.y, &p.vx, &p.vy, &p.density, &p.pressure, &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx, &p.lyy}),
-      rests_(!p.repose.empty()) {
+std::vector<Field<double> *> carried_fields(Particles &p) {
+    std::vector<Field<double> *> fields = {&p.x,   &p.y,   &p.vx,  &p.vy,  &p.density, &p.pressure,
+                                           &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx,     &p.lyy};
     if (!p.fluidity.empty())
-        fields_.push_back(&p.fluidity);
-}
-
-void Carried::put(int64_t i, double *out) const {
-    for (const Field<double> *field : fields_)
-        *out++ = (*field)[i];
-    if (rests_)
-        particles_.put_rest(i, out);
-}
-
-void Carried::take(int64_t i, const double *in) const {
-    for (Field<double> *field : fields_)
-        (*field)[i] = *in++;
-    if (rests_)
-        particles_.take_rest(i, in);
+        fields.push_back(&p.fluidity);
+    if (p.repose.in_use())
+        Repose::for_each(p.repose, [&](const char *, Field<double> &field) { fields.push_back(&field); });
+    return fields;
 }
 
 namespace {
@@ -249,9 +281,7 @@ void go_to_owners(World &world, const CellFrame &frame) {
         share = {};
         share.dealt = true;
     }
-    const Carried carried(p);
-    const std::size_t numbers = carried.numbers() + 2;
-    std::vector<double> moved(carried.numbers());
+    const std::vector<Field<double> *> fields = carried_fields(p);
     std::vector<std::pair<int64_t, int>> left; // only with sleep
     std::vector<std::vector<double>> out(static_cast<std::size_t>(crossing.ranks())), in;
     int64_t kept = 0;
@@ -261,33 +291,33 @@ void go_to_owners(World &world, const CellFrame &frame) {
         if (owner == crossing.rank()) {
             p.id[kept] = p.id[i];
             p.column[kept] = p.column[i];
-            if (kept < i) {
-                carried.put(i, moved.data());
-                carried.take(kept, moved.data());
-            }
+            for (Field<double> *field : fields)
+                (*field)[kept] = (*field)[i];
             ++kept;
             continue;
         }
         std::vector<double> &to = out[owner];
         to.push_back(static_cast<double>(p.id[i]));
         to.push_back(static_cast<double>(p.column[i]));
-        to.resize(to.size() + carried.numbers());
-        carried.put(i, &to[to.size() - carried.numbers()]);
+        for (const Field<double> *field : fields)
+            to.push_back((*field)[i]);
         if (world.sleep.in_use)
             left.emplace_back(p.id[i], owner);
     }
     crossing.deal(out, in);
     if (world.sleep.in_use)
         send_loads(world, left);
+    const std::size_t numbers = fields.size() + 2;
     int64_t count = kept;
     for (const std::vector<double> &from : in)
         count += static_cast<int64_t>(from.size() / numbers);
     resize_part(world, count);
     for (const std::vector<double> &from : in)
-        for (const double *r = from.data(), *end = r + from.size(); r != end; r += numbers) {
-            p.id[kept] = static_cast<int64_t>(r[0]);
-            p.column[kept] = static_cast<int32_t>(r[1]);
-            carried.take(kept++, r + 2);
+        for (const double *r = from.data(), *end = r + from.size(); r != end; ++kept) {
+            p.id[kept] = static_cast<int64_t>(*r++);
+            p.column[kept] = static_cast<int32_t>(*r++);
+            for (Field<double> *field : fields)
+                (*field)[kept] = *r++;
         }
 }
 

@@ -2,18 +2,30 @@
 // about single particles).
 #pragma once
 
+#include <array>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 #include <type_traits>
 
 #include "binned_sum.hpp"
+#include "error.hpp"
 #include "world.hpp"
 
 namespace gp {
 
+// GP_E_UNSUPPORTED if a scene cannot be worked on in parts.
+void require_partable(const Scene &scene);
+// The part of a process, without particles.
+std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing);
+// That with an equal share of the scene's particles, as they begin: with the first lists they go to their owners.
+std::unique_ptr<World> begin_part(const Scene &scene, Crossing &crossing);
+
 // The sum of a number of each process, J/m.
 double sum_of_all(const World &world, double energy);
+
+int64_t sum_of_all(Crossing &crossing, int64_t count);
 
 // Sums, and the largest of a number of each process: of all.
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest);
@@ -24,19 +36,8 @@ void combine_books(World &world, BlockRange &range, BlockSums &total);
 // Particles go to the process whose cells they are in. Now and then, when the work has become uneven, the cells are dealt out
 // anew.
 void go_to_owners(World &world, const CellFrame &frame);
-// What goes with a particle, as numbers: fields, and with sleep how long it has rested.
-class Carried {
-public:
-    explicit Carried(Particles &particles);
-    std::size_t numbers() const { return fields_.size() + (rests_ ? Particles::rest_numbers : 0); }
-    void put(int64_t i, double *out) const;
-    void take(int64_t i, const double *in) const;
-
-private:
-    Particles &particles_;
-    std::vector<Field<double> *> fields_;
-    bool rests_;
-};
+// The fields that go with a particle.
+std::vector<Field<double> *> carried_fields(Particles &particles);
 // Room for so many particles.
 void resize_part(World &world, int64_t count);
 
@@ -95,7 +96,14 @@ private:
     Crossing &crossing_;
     std::exception_ptr failure_;
 };
-// Throws everywhere what look() throws anywhere, by the lowest rank; look() is called where there is something suspect.
+// A step that diverges. key: the place, in the order in which a process alone looks at checks and particles.
+class Divergence : public Error {
+public:
+    Divergence(const Error &error, const std::array<double, 4> &at) : Error(error), key(at) {}
+    std::array<double, 4> key;
+};
+// Throws everywhere what look() throws anywhere: what a process alone would, of what is told apart by no key that of the lowest
+// rank; look() is called where there is something suspect.
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look);
 // The text of the rank with the largest value.
 std::string text_of_largest(Crossing &crossing, double &value, const std::string &text);

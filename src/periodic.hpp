@@ -34,11 +34,20 @@ public:
     void copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
                          Field<float> &crowded) const;
     void copy_motion(Particles &particles) const; // positions and velocities
+    void copy_all(Particles &particles) const;    // all that a step begins with
 
     // The cell of the k-th image, of a part of a world.
     const Cell &cell(int64_t k) const { return halo_->cell(cells_.order()[k]); }
     // The particle that an index of the neighbour lists stands for; not of a part of a world.
     int64_t source(int64_t index) const { return index < first_ ? index : source_[index - first_]; }
+
+    // Its number in the scene; also in a part of a world.
+    int64_t id_of(const Particles &particles, int64_t index) const {
+        if (index < first_)
+            return particles.id[index];
+        const int32_t found = cells_.order()[index - first_];
+        return halo_ ? halo_->ids()[found] : ids_[found];
+    }
 
     // Calls found(begin, end) for the runs of particles and images that may lie in the box, row by row.
     template <class Found> void for_each_run_in(const CellGrid &grid, const Box &box, const Found &found) const;
@@ -48,7 +57,6 @@ public:
 private:
     template <class CellOf>
     void put_in_order_of_cells(const CellGrid &grid, const std::vector<int64_t> &id, const CellOf &cell_of);
-    void copy_all(Particles &particles) const;
 
     int64_t first_ = INT64_MAX; // number of particles, once there are images
     CellGrid cells_;

@@ -169,6 +169,12 @@ template <class... Fields> int64_t bytes_of_all(const Fields &...fields) {
     return (bytes_of(fields) + ...);
 }
 
+int64_t bytes_of_repose(const Repose &repose) {
+    int64_t bytes = 0;
+    Repose::for_each(repose, [&](const char *, const Field<double> &field) { bytes += bytes_of(field); });
+    return bytes;
+}
+
 gp_plan_entry field_entry(const char *name, bool active, const char *reason, int64_t bytes) {
     gp_plan_entry entry{};
     entry.name = name;
@@ -282,7 +288,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     optional("viscous_system", t.scheme == Scheme::implicit, "the implicit solve's operators and vectors",
              "no implicit solve", world.viscous.bytes() + world.mirrors.bytes());
     optional("sleep", t.sleep, "sleep is 1: how long it has rested, spans and loads of what sleeps", "sleep is 0",
-             bytes_of_all(p.repose, p.asleep) + world.sleep.bytes());
+             bytes_of_repose(p.repose) + world.sleep.bytes());
     common("block_sums", bytes_of_all(world.sums, world.ranges));
     entries.push_back(field_entry("ghosts", t.plates && world.walls.in_reach(),
                                   !t.plates ? "the scene has no plates"

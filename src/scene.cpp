@@ -236,8 +236,8 @@ int32_t Scene::add_column(const gp_column &c, std::string &note) {
     return column_id;
 }
 
-int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, const double *py, const double *pvx,
-                             const double *pvy) {
+void Scene::check_particles(int32_t material, int64_t n, const double *px, const double *py, const double *pvx,
+                            const double *pvy) const {
     require_choice("material", material, static_cast<int64_t>(materials_.size()));
     if (n < 1 || n > most_particles - particle_count())
         throw make_error(GP_E_ARGUMENT, "n = %lld: expected a whole number from 1 to %lld", static_cast<long long>(n),
@@ -261,7 +261,11 @@ int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, cons
     }
     check("vx", pvx);
     check("vy", pvy);
+}
 
+int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, const double *py, const double *pvx,
+                             const double *pvy) {
+    check_particles(material, n, px, py, pvx, pvy);
     Body body;
     body.material = material;
     body.first = particle_count();

@@ -202,6 +202,9 @@ public:
     int32_t add_column(const gp_column &column, std::string &note);
     int32_t add_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
                           const double *vy);
+    // Throws what that would.
+    void check_particles(int32_t material, int64_t n, const double *x, const double *y, const double *vx,
+                         const double *vy) const;
     int32_t add_plate(const gp_plate &plate);
     // In place of the config's.
     void set_gravity(const Vector &gravity);
@@ -226,8 +229,8 @@ public:
     Constants constants() const;
     // Gravity, and the height and speed of a fall of material that is at these places (of plates that are where they begin).
     void set_fall(Constants &constants, const Vector &gravity, const double *px, const double *py, int64_t count) const;
-    // With which every particle begins (gp_column.initial_pressure).
-    std::vector<InitialStress> initial_stress(const Constants &constants) const;
+    // With which the particles first .. end begin (gp_column.initial_pressure).
+    std::vector<InitialStress> initial_stress(const Constants &constants, int64_t first, int64_t end) const;
 
     // Initial positions and velocities, in the order of id.
     std::vector<double> x, y, vx, vy;

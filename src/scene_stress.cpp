@@ -258,14 +258,15 @@ struct Principal {
 
 } // namespace
 
-std::vector<InitialStress> Scene::initial_stress(const Constants &constants) const {
+std::vector<InitialStress> Scene::initial_stress(const Constants &constants, int64_t first, int64_t end) const {
     const bool down = constants.gravity.y() <= 0, left = constants.gravity.x() <= 0;
     const Direction vertical(*this, constants, Vector(0, down ? -1 : 1)),
         across(*this, constants, Vector(left ? -1 : 1, 0));
-    std::vector<InitialStress> stress(x.size());
+    std::vector<InitialStress> stress(static_cast<std::size_t>(end - first));
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         const MaterialConstants &material = constants.materials[static_cast<std::size_t>(bodies_[b].material)];
-        for (int64_t i = bodies_[b].first; i < bodies_[b].first + bodies_[b].count; ++i) {
+        const int64_t last = std::min(end, bodies_[b].first + bodies_[b].count);
+        for (int64_t i = std::max(first, bodies_[b].first); i < last; ++i) {
             // The weights of both directions add up; loads from two sides are one pressure. But what the friction of its floor
             // holds does not press on the wall at its lower end: a layer of 1 cm on 20 degrees between walls .4 m apart began
             // under the pressure of .14 m, which let go at its surface, and slid by .6 to 7.6 mm before it bore its weight.
@@ -274,7 +275,7 @@ std::vector<InitialStress> Scene::initial_stress(const Constants &constants) con
                 a = {};
             else if (constants.scheme == Scheme::adjoint && across.holds(b, a))
                 v = {};
-            InitialStress &s = stress[i];
+            InitialStress &s = stress[i - first];
             s.pressure = v.weight + a.weight + std::max(v.load, a.load);
             const bool by_v = v.weight + v.load > 0, by_a = a.weight + a.load > 0;
             if (constants.scheme != Scheme::adjoint || by_v + by_a == 0) // the other schemes' deviator is viscous

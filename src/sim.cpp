@@ -119,8 +119,6 @@ void Sim::leave_step() {
 gp_status Sim::advance(gp_sim *handle, double t_end) {
     std::vector<std::string> notes;
     try {
-        whole_.reset();
-        whole_known_ = false;
         notes = take_step();
     } catch (const Error &error) {
         diverged_ = error.status() == GP_E_DIVERGED;
@@ -199,29 +197,12 @@ void Sim::prepare() {
         world_->lists_valid = false;
         return;
     }
-    if (!crossing_) {
-        set_world(begin_world());
-        return;
-    }
-    std::unique_ptr<World> first;
-    run_on_first(*crossing_, [&] { first = begin_world(); });
-    set_world(deal_out(scene_, *crossing_, first.get()));
-    know_whole(std::move(first));
-}
-
-const World *Sim::whole() {
-    if (!crossing_)
-        return world_.get();
-    if (!whole_known_ || whole_epoch_ != epoch_) {
-        whole_.reset(); // before there are two
-        know_whole(put_together(*world_));
-    }
-    return whole_.get();
+    set_world(begin_world());
 }
 
 // The world before its first step, with lists and ledger.
 std::unique_ptr<World> Sim::begin_world() const {
-    auto world = make_world(scene_);
+    auto world = crossing_ ? begin_part(scene_, *crossing_) : make_world(scene_);
     stages::measure_velocities(*world);
     stages::update_neighbors(*world);
     if (by_number_density(world->constants.scheme))
@@ -230,6 +211,8 @@ std::unique_ptr<World> Sim::begin_world() const {
     for (int64_t i = 0; i < world->particles.count; ++i)
         world->max_compression =
             std::max(world->max_compression, world->particles.density[i] / world->material_of(i).density - 1);
+    if (crossing_)
+        crossing_->combine(&world->max_compression, 1, nullptr, 0);
 
     const Packing packing = measure_packing(*world, Part::all);
     world->packing_at_start = packing.particles > 0
@@ -243,12 +226,6 @@ void Sim::set_world(std::unique_ptr<World> world) {
     traits_.parts = crossing_ != nullptr;
     stages_ = make_stages(traits_);
     world_ = std::move(world);
-}
-
-void Sim::know_whole(std::unique_ptr<World> whole) {
-    whole_ = std::move(whole);
-    whole_epoch_ = epoch_;
-    whole_known_ = true;
 }
 
 std::vector<gp_plan_entry> Sim::plan() const {
@@ -284,14 +261,8 @@ Progress Sim::progress() const {
 
 void Sim::resume(std::unique_ptr<World> world, const Progress &progress) {
     epoch_ = progress.epoch;
-    if (crossing_) {
-        if (progress.started) {
-            set_world(deal_out(scene_, *crossing_, world.get()));
-            know_whole(std::move(world));
-        }
-    } else if (world) {
+    if (world)
         set_world(std::move(world));
-    }
     started_ = progress.started;
     diverged_ = progress.diverged;
     warnings_.set_told(progress.told);
@@ -308,11 +279,7 @@ void Sim::require_steppable() const {
         stages::require_moderate_flow(*world_);
     if (const std::string note = warnings_.note_of_scene(*world_); !note.empty())
         log(GP_LOG_INFO, note);
-    if (!crossing_)
-        warn(self.warnings_.of_scene(*world_));
-    else if (world_->clock.step == 0)
-        if (const World *all = self.whole())
-            warn(self.warnings_.of_scene(*all));
+    warn(self.warnings_.of_scene(*world_));
     self.started_ = true;
 }
 

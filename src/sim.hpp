@@ -10,7 +10,6 @@
 #include "plan.hpp"
 #include "scene.hpp"
 #include "warnings.hpp"
-#include "whole.hpp"
 #include "world.hpp"
 
 namespace gp {
@@ -58,10 +57,8 @@ public:
     void prepare();
     bool is_prepared() const { return world_ && world_->lists_whole; }
     Progress progress() const;
-    // The world of all processes: on the first of them, elsewhere NULL. A process alone has it anyway.
-    const World *whole();
     Crossing *crossing() const { return crossing_.get(); }
-    // Goes on from a checkpoint: world is that of this scene, NULL before the first step.
+    // Goes on from a checkpoint: world is that of this scene, or the part of it; NULL before the first step.
     void resume(std::unique_ptr<World> world, const Progress &progress);
     void set_plate_start(int32_t plate, const Vector &start, double angle) {
         scene_.set_plate_start(plate, start, angle);
@@ -87,7 +84,6 @@ private:
     std::vector<std::string> take_step(); // or a piece of it after halving; returns what the log is to be told
     [[noreturn]] void leave_step();
     void set_world(std::unique_ptr<World> world);
-    void know_whole(std::unique_ptr<World> whole);   // of this epoch
     gp_status advance(gp_sim *handle, double t_end); // one step, output and callback
 
     std::unique_ptr<World> begin_world() const;
@@ -97,9 +93,6 @@ private:
     Scene scene_;
     std::shared_ptr<Crossing> crossing_;
     std::unique_ptr<World> world_; // or the part of it that is this process's
-    std::unique_ptr<World> whole_; // of all parts, as it was in the epoch
-    uint64_t whole_epoch_ = 0;
-    bool whole_known_ = false;
     Traits traits_{};
     std::vector<PlannedStage> stages_;
     bool started_ = false, diverged_ = false, in_callback_ = false;

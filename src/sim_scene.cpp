@@ -22,8 +22,6 @@ void Sim::require_unstarted(const char *call) const {
 
 void Sim::scene_changed() {
     world_.reset();
-    whole_.reset();
-    whole_known_ = false;
     warnings_ = {};
     ++epoch_;
 }
@@ -60,7 +58,7 @@ int32_t Sim::add_particles_of_all(int32_t material, int64_t n, const double *x, 
     std::string wrong;
     try {
         if (n != 0)
-            Scene(scene_).add_particles(material, n, x, y, vx, vy);
+            scene_.check_particles(material, n, x, y, vx, vy);
     } catch (const Error &error) {
         wrong = error.what();
     }

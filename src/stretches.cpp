@@ -8,12 +8,6 @@ namespace gp {
 
 namespace {
 
-int64_t sum_over(Crossing &crossing, int64_t own) {
-    Whole all = own;
-    crossing.combine(nullptr, 0, &all, 1);
-    return static_cast<int64_t>(all);
-}
-
 // What each process may send of a stretch.
 int64_t share_of_stretch(const Crossing &crossing) {
     return std::max<int64_t>(1, stretch_size / crossing.ranks());
@@ -22,7 +16,7 @@ int64_t share_of_stretch(const Crossing &crossing) {
 } // namespace
 
 int64_t count_of_all(const World &world) {
-    return world.crossing ? sum_over(*world.crossing, world.particles.count) : world.particles.count;
+    return world.crossing ? sum_of_all(*world.crossing, world.particles.count) : world.particles.count;
 }
 
 void key_of_cell(const World &part, int64_t k, int64_t columns, double *key) {
@@ -91,7 +85,7 @@ void collect_numbers(Crossing &crossing, const double *own, int64_t count,
                      const std::function<void(int64_t all)> &make_room,
                      const std::function<void(const std::vector<double> &piece)> &body) {
     constexpr int64_t numbers = 3 * 4; // a multiple of the numbers of all items
-    const int64_t all = sum_over(crossing, count);
+    const int64_t all = sum_of_all(crossing, count);
     OnFirst first(crossing);
     first.run([&] { make_room(all); });
     std::vector<double> out, piece;

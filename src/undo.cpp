@@ -97,6 +97,7 @@ void begin_step(World &world) {
     start.ledger = world.ledger;
     start.plates = world.walls.plates;
     start.shifted = world.shifted;
+    start.closed_in = world.closed_in;
     start.fields_kept = false;
     world.lists_new = false;
 }
@@ -169,6 +170,7 @@ void undo_step(World &world, UndoneOrder order) {
     world.walls.plates = start.plates;
     world.walls.place_facets();
     world.shifted = start.shifted;
+    world.closed_in = start.closed_in;
     if (sorted && order == UndoneOrder::before)
         undo_sort(world); // last: it needs memory
 }

@@ -6,6 +6,7 @@
 #include "error.hpp"
 #include "ledger.hpp"
 #include "mistakes.hpp"
+#include "parts.hpp"
 #include "stages/stages.hpp"
 #include "volume_drift.hpp"
 
@@ -191,6 +192,26 @@ struct Overlaps {
     double closest = 0, x = 0, y = 0; // m: their distance, and where the first is
 };
 
+// Those of all processes. Of pairs that are as close the first is that which a process alone finds first.
+void combine_overlaps(const World &world, Overlaps &found) {
+    const auto number = [](int64_t whole) { return static_cast<double>(whole); };
+    std::vector<double> own, all;
+    if (found.count > 0) {
+        const Cell cell = world.grid.frame().cell_of(found.x, found.y);
+        own = {found.closest, number(cell.row), number(cell.column), number(found.first), number(found.second),
+               found.x,       found.y};
+    }
+    found.count = sum_of_all(*world.crossing, found.count);
+    world.crossing->gather_everywhere(own, all);
+    const double *least = all.data();
+    for (const double *next = all.data(), *end = next + all.size(); next != end; next += 7)
+        if (std::lexicographical_compare(next, next + 4, least, least + 4))
+            least = next;
+    if (found.count > 0)
+        found = {found.count, static_cast<int64_t>(least[3]), static_cast<int64_t>(least[4]), least[0], least[5],
+                 least[6]};
+}
+
 // Pairs that begin closer than overlap_share: the lattice of two columns laid over each other, particles put in twice.
 Overlaps find_overlaps(const World &world) {
     Overlaps found;
@@ -199,13 +220,15 @@ Overlaps find_overlaps(const World &world) {
     for (int64_t i = 0; i < p.count; ++i)
         for_each_candidate(world.grid, world.images, p.x[i], p.y[i], reach, [&](int64_t j) {
             const double distance = std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]);
-            const int64_t other = p.id[world.images.source(j)];
+            const int64_t other = world.images.id_of(p, j);
             if (other <= p.id[i] || distance >= reach)
                 return;
             if (found.count == 0 || distance < found.closest)
                 found = {found.count, p.id[i], other, distance, p.x[i], p.y[i]};
             ++found.count;
         });
+    if (world.crossing)
+        combine_overlaps(world, found);
     return found;
 }
 
@@ -226,7 +249,7 @@ std::vector<std::string> Warnings::of_scene(const World &world) {
         return texts;
     for (std::string &text : scene_mistakes(world))
         texts.push_back(std::move(text));
-    if (world.particles.count == 0)
+    if (world.scene->particle_count() == 0)
         return texts;
     if (c.sound_speed_is_arbitrary)
         texts.push_back("sound_speed: nothing in the scene sets a speed, so 1 m/s is used");

@@ -34,26 +34,41 @@ std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &cons
     return world;
 }
 
-std::unique_ptr<World> make_world(const Scene &scene) {
-    std::unique_ptr<World> world = make_bare_world(scene, scene.constants(), scene.particle_count());
-    const Constants &c = world->constants;
-    Particles &p = world->particles;
-    const std::vector<InitialStress> stress = scene.initial_stress(c);
+double mass_of_all(const World &world) {
+    double mass = 0; // added up particle by particle
+    for (const Body &body : world.scene->bodies()) {
+        const double own = world.constants.materials[body.material].density * world.constants.volume;
+        for (int64_t k = 0; k < body.count; ++k)
+            mass += own;
+    }
+    return mass;
+}
+
+void begin_particles(World &world, int64_t first) {
+    const Scene &scene = *world.scene;
+    const Constants &c = world.constants;
+    Particles &p = world.particles;
+    const std::vector<InitialStress> stress = scene.initial_stress(c, first, first + p.count);
     for (int64_t i = 0; i < p.count; ++i) {
-        p.id[i] = i;
-        p.column[i] = scene.column[i];
-        p.x[i] = scene.x[i];
-        p.y[i] = scene.y[i];
-        p.vx[i] = scene.vx[i];
-        p.vy[i] = scene.vy[i];
+        const int64_t id = first + i;
+        p.id[i] = id;
+        p.column[i] = scene.column[id];
+        p.x[i] = scene.x[id];
+        p.y[i] = scene.y[id];
+        p.vx[i] = scene.vx[id];
+        p.vy[i] = scene.vy[id];
         p.pressure[i] = stress[i].pressure;
         p.sxx[i] = stress[i].sxx;
         p.sxy[i] = stress[i].sxy;
-        p.density[i] = world->material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);
+        p.density[i] = world.material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);
     }
-    for (int64_t i = 0; i < p.count; ++i)
-        world->mass += world->material_of(i).density * p.volume;
-    world->walls.place_plates(0, c.spacing / c.wave_speed);
+    world.mass = mass_of_all(world);
+    world.walls.place_plates(0, c.spacing / c.wave_speed);
+}
+
+std::unique_ptr<World> make_world(const Scene &scene) {
+    std::unique_ptr<World> world = make_bare_world(scene, scene.constants(), scene.particle_count());
+    begin_particles(*world, 0);
     return world;
 }
 

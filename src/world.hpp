@@ -11,6 +11,7 @@
 #include "neighbors.hpp"
 #include "particles.hpp"
 #include "scene.hpp"
+#include "shift_tiles.hpp"
 #include "sleep.hpp"
 #include "viscous_system.hpp"
 #include "walls.hpp"
@@ -83,7 +84,7 @@ struct StepStart {
     Clock clock;
     Ledger ledger;
     std::vector<Plate> plates;
-    double shifted = 0;
+    double shifted = 0, closed_in = 0;
     bool fields_kept = false;          // the next ones hold the present step's beginning
     std::vector<Field<double>> copied; // of fields that are changed in place
     std::array<Field<double>, 4> made; // of the velocity gradient, made anew: memory is exchanged, not copied
@@ -136,7 +137,9 @@ struct World {
     ListOrigin list_origin;
     Field<int32_t> listed;    // particle of each place in the lists and cells, where a sort was undone; empty: the same
     double skin = 0;          // m
-    double shifted = 0;       // m, bound on the relative shift since the lists were made
+    double shifted = 0;       // m, bound on the relative shift of any two since the lists were made
+    double closed_in = 0;     // m, and on that of those that may come into each other's reach: what makes lists anew
+    ShiftTiles tiles;         // what that is measured in
     double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
     double fastest = 0;       // m/s, bound on any particle's speed
 
@@ -169,6 +172,10 @@ struct World {
 
 // With room for so many particles, plates where they begin.
 std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &constants, int64_t count);
+// kg/m, of all particles of its scene, whoever has them.
+double mass_of_all(const World &world);
+// All is as the scene has it at the beginning; the particles are those from `first` on, as many as there is room for.
+void begin_particles(World &world, int64_t first);
 // The world of a scene before its first step: particles and plates in place, no lists yet.
 std::unique_ptr<World> make_world(const Scene &scene);
 

@@ -6,11 +6,12 @@
 #include "check.hpp"
 #ifdef GP_WITH_HDF5
 #include "io/checkpoint_parts.hpp"
+#include "io/checkpoint_rows.hpp"
 #include "io/checkpoint_scene.hpp"
 #include "io/checkpoint_sleep.hpp"
-#include "io/safe_file.hpp"
 #include "parts.hpp"
 #include "stages/stages.hpp"
+#include "stretches.hpp"
 #endif
 
 namespace gp::io {
@@ -21,7 +22,8 @@ void save_checkpoint(const std::string &, const Sim &, const World *, const Outp
     throw make_error(GP_E_UNSUPPORTED, "gp_save: this build has no HDF5");
 }
 
-void load_checkpoint(const std::string &, const std::function<Sim &(const gp_config &)> &, OutputPosition &) {
+void load_checkpoint(const std::string &, Crossing *, const std::function<Sim &(const gp_config &)> &,
+                     OutputPosition &) {
     throw make_error(GP_E_UNSUPPORTED, "gp_load: this build has no HDF5");
 }
 
@@ -31,12 +33,14 @@ namespace {
 
 // ------------------------------------------------------------------------------------------------------- saving
 
-void write_world(CheckpointWriter &file, const World &world) {
+// All of a world but the particles, and what is of each of them.
+void write_common(CheckpointWriter &file, const World &world) {
     exchange_clock_and_sums(file, world);
     ListTable lists;
     lists.valid = world.lists_valid;
     lists.skin = world.skin;
     lists.shifted = world.shifted;
+    lists.closed_in = world.closed_in;
     for (const Plate::State &state : world.list_origin.plates) {
         lists.plate_x.push_back(state.placed.shift.x());
         lists.plate_y.push_back(state.placed.shift.y());
@@ -46,10 +50,7 @@ void write_world(CheckpointWriter &file, const World &world) {
         lists.plate_vy.push_back(state.driven_motion.velocity.y());
         lists.plate_omega.push_back(state.driven_motion.omega);
     }
-    exchange_lists(file, lists, world);
-    exchange_particles(file, world.particles, world.listed);
-    if (world.sleep.in_use)
-        write_sleep(file, world);
+    exchange_lists(file, lists);
 
     PlateMotionTable t;
     for (const Plate &plate : world.walls.plates) {
@@ -90,6 +91,55 @@ void write_world(CheckpointWriter &file, const World &world) {
     exchange_pieces(file, pieces);
 }
 
+// The particles of a process alone.
+template <class File, class W> void exchange_particles(File &file, W &world) {
+    auto &p = world.particles;
+    for_each_particle_array(p, [&](const char *name, auto &field) {
+        file.array(name, field, field.empty() ? 0 : static_cast<std::size_t>(p.count));
+    });
+}
+
+// A file that is being written, by the first process.
+class Saving {
+public:
+    // world: NULL before the first step; all: particles of all processes.
+    Saving(const std::string &path, const Sim &sim, const World *world, int64_t all, const OutputPosition &position)
+        : file_(path) {
+        const Progress progress = sim.progress();
+        write_scene(file_, sim.scene());
+        exchange_progress(file_, progress);
+        const PositionTable at{position, {position.path.begin(), position.path.end()}};
+        exchange_position(file_, at);
+        if (!world)
+            return;
+        write_common(file_, *world);
+        file_.group("/particles");
+        if (world->crossing)
+            rows_ = std::make_unique<RowWriter>(file_, *world, all);
+    }
+    void write_particles(const World &world) {
+        for_each_listed_array(world.list_origin.x, world.list_origin.y,
+                              [&](const char *name, const auto &values) { file_.array(name, values); });
+        file_.array("listed", world.listed);
+        exchange_particles(file_, world);
+    }
+    // All particles have been written.
+    void write_loads_of_sleep(const std::vector<MeanLoad> &loads) {
+        rows_.reset();
+        write_loads(file_, loads);
+    }
+    void append(const std::vector<const double *> &rows) { rows_->append(rows); }
+    void put_into_place() {
+        rows_.reset();
+        file_.put_into_place();
+    }
+
+private:
+    Session session_;
+    CheckpointWriter file_;
+    std::unique_ptr<RowWriter> rows_;
+};
+
 // ------------------------------------------------------------------------------------------------------ loading
 
 // Steps and the like that no run comes to, and that can still be counted on from.
@@ -121,33 +171,23 @@ void read_clock_and_sums(CheckpointReader &file, const Checker &check, World &w)
     check.not_negative("gravity/flow_speed", w.constants.flow_speed);
 }
 
-// The lists as they were made, from the positions and plates of then. Afterwards particles and plates are to be set.
+// Plates as they were when the lists were made. Afterwards they and the particles are to be set.
 ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
     ListTable t;
-    ListOrigin &origin = w.list_origin;
-    exchange_lists(file, t, w);
+    exchange_lists(file, t);
     const double spacing = w.constants.spacing;
-    const std::size_t n = static_cast<std::size_t>(w.particles.count), plates = w.walls.plates.size();
+    const std::size_t plates = w.walls.plates.size();
     check.require(t.skin > 0 && t.skin <= spacing, format_text("skin: %g m", t.skin));
     check.not_negative("shifted", t.shifted);
-    check.same_size("lists/x", origin.x, n);
-    check.same_size("lists/y", origin.y, n);
+    check.not_negative("closed_in", t.closed_in);
     check.same_size("lists/plate_driven", t.plate_driven, plates);
     for (const auto *array : {&t.plate_x, &t.plate_y, &t.plate_angle, &t.plate_vx, &t.plate_vy, &t.plate_omega}) {
         check.same_size("lists/plate_...", *array, plates);
         check.all_finite("lists/plate_...", *array);
     }
-    const double farthest = 1e15 * spacing; // beyond, lattice points behind a plate cannot be counted
     for (const auto *array : {&t.plate_x, &t.plate_y})
         for (const double value : *array)
-            check.require(std::abs(value) <= farthest, format_text("lists: a plate at %g m", value));
-    for (const auto *array : {&origin.x, &origin.y})
-        for (const double value : *array)
-            check.require(std::abs(value) <= farthest, format_text("lists: a particle at %g m", value));
-    if (const Period &period = w.constants.period)
-        for (const double x : origin.x)
-            check.require(std::abs(x - period.x_min - 0.5 * period.length) <= (0.5 + 1e-9) * period.length,
-                          format_text("lists: a particle at x = %g m, beyond the period", x));
+            check.require(std::abs(value) <= farthest_of_lists * spacing, format_text("lists: a plate at %g m", value));
     for (std::size_t k = 0; k < plates; ++k) {
         Plate::State state;
         state.placed = {{t.plate_x[k], t.plate_y[k]}, t.plate_angle[k]};
@@ -156,47 +196,34 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
         w.walls.plates[k].set_state(state);
     }
     w.walls.place_facets();
-    std::copy(origin.x.begin(), origin.x.end(), w.particles.x.begin());
-    std::copy(origin.y.begin(), origin.y.end(), w.particles.y.begin());
     w.skin = t.skin;
-    stages::make_lists(w);
-    for (std::size_t k = 0; k < n; ++k)
-        check.require(w.grid.order()[k] == static_cast<int32_t>(k), "lists: the particles are not in their order");
     return t;
 }
 
+// Of a process alone: the lists as they were made, of where the particles were then, and these.
 void read_particles(CheckpointReader &file, const Checker &check, const Scene &scene, World &w) {
     Particles &p = w.particles;
-    const std::size_t n = static_cast<std::size_t>(p.count), all = static_cast<std::size_t>(p.count + w.images.count);
-    const bool trace = !p.syy.empty();
-    exchange_particles(file, p, w.listed);
+    const std::size_t n = static_cast<std::size_t>(p.count);
+    for_each_listed_array(p.x, p.y, [&](const char *name, Field<double> &field) { file.array(name, field, n); });
+    check_list_positions(check, w, p.count);
+    stages::make_lists(w);
+    for (std::size_t k = 0; k < n; ++k)
+        check.require_each(w.grid.order()[k] == static_cast<int32_t>(k),
+                           [] { return std::string("lists: the particles are not in their order"); });
+    file.array("listed", w.listed);
+    exchange_particles(file, w);
     if (!w.listed.empty()) {
         check.same_size("listed", w.listed, n);
         check.permutation("listed", w.listed);
     }
-    check.same_size("id", p.id, n);
     check.permutation("id", p.id);
-    check.same_size("column", p.column, all);
-    for (std::size_t k = 0; k < all; ++k)
-        check.require(p.column[k] == scene.column[p.id[w.images.source(static_cast<int64_t>(k))]],
-                      "a particle is of another column");
-    for (const auto *field : {&p.x, &p.y, &p.vx, &p.vy, &p.density, &p.pressure, &p.sxx, &p.sxy}) {
-        check.same_size("particles", *field, all);
-        check.all_finite("particles", *field);
-    }
-    for (std::size_t k = 0; k < all; ++k) {
-        const double own = w.material_of(static_cast<int64_t>(k)).density;
-        // Before the first step it is the scene's: a slow sound under much weight may be beyond what a step takes.
-        check.require(stages::is_bounded_density(p.density[k] / own) || (w.clock.step == 0 && p.density[k] >= 0),
-                      format_text("a density of %g kg/m3", p.density[k]));
-        check.require(p.pressure[k] >= 0, format_text("a pressure of %g Pa", p.pressure[k]));
-    }
-    check.same_size("syy", p.syy, trace ? all : 0);
-    check.all_finite("syy", p.syy);
-    check.same_size("fluidity", p.fluidity, p.fluid_pull.empty() ? 0 : all);
-    check.all_finite("fluidity", p.fluidity);
-    for (auto *field : {&p.lxx, &p.lxy, &p.lyx, &p.lyy})
-        check.same_size("velocity gradient", *field, all);
+    for (std::size_t k = 0; k < n; ++k)
+        check.require_each(p.column[k] == scene.column[p.id[k]],
+                           [] { return std::string("a particle is of another column"); });
+    for_each_particle_array(p, [&](const char *name, const auto &field) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Field<double>>)
+            check_numbers(check, w, name, p.column.data(), field.data(), field.empty() ? 0 : n);
+    });
 }
 
 void read_motions(CheckpointReader &file, const Checker &check, World &w) {
@@ -245,26 +272,39 @@ void read_pieces(CheckpointReader &file, const Checker &check, World &w) {
     }
 }
 
-std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, const Scene &scene) {
-    std::unique_ptr<World> world = make_world(scene);
+// Of several processes the part of each.
+std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, const Sim &sim) {
+    const Scene &scene = sim.scene();
+    std::unique_ptr<World> world;
+    if (sim.crossing()) {
+        world = make_part(scene, *sim.crossing());
+    } else {
+        world = make_bare_world(scene, scene.constants(), scene.particle_count());
+        world->mass = mass_of_all(*world);
+    }
     read_clock_and_sums(file, check, *world);
     const ListTable lists = read_lists(file, check, *world);
-    read_particles(file, check, scene, *world);
-    if (world->sleep.in_use)
-        read_sleep(file, *world);
+    file.group("/particles");
+    if (world->crossing)
+        read_rows(file, check, *world);
+    else
+        read_particles(file, check, scene, *world);
     read_motions(file, check, *world);
-    const Field<double> listed_x = world->walls.ghost_x, listed_y = world->walls.ghost_y;
     exchange_ghosts(file, world->walls);
-    world->walls.ghosts_placed = world->walls.ghost_x != listed_x || world->walls.ghost_y != listed_y;
-    for (const auto *field :
-         {&world->walls.ghost_x, &world->walls.ghost_y, &world->walls.ghost_nx, &world->walls.ghost_ny}) {
-        check.same_size("ghosts", *field, static_cast<std::size_t>(world->walls.ghost_count));
-        check.all_finite("ghosts", *field);
+    if (world->walls.ghosts_placed)
+        world->walls.place_ghosts(world->threads);
+    if (world->images.in_use()) {
+        world->images.copy_all(world->particles);
+        if (!world->particles.syy.empty())
+            world->images.copy(world->particles.syy);
     }
     read_pieces(file, check, *world);
+    if (world->sleep.in_use)
+        read_sleep(file, check, *world);
     world->lists_valid = lists.valid;
     world->lists_new = false;
     world->shifted = lists.shifted;
+    world->closed_in = lists.closed_in;
     return world;
 }
 
@@ -281,7 +321,7 @@ OutputPosition read_position(CheckpointReader &file, const Checker &check) {
 
 struct Loaded {
     Sim *sim = nullptr;
-    std::unique_ptr<World> world; // of several processes, the first one's
+    std::unique_ptr<World> world;
     Progress progress;
 };
 
@@ -296,47 +336,67 @@ Loaded read_all(CheckpointReader &file, const std::function<Sim &(const gp_confi
     position = read_position(file, check);
     Loaded loaded{&sim, nullptr, progress};
     if (progress.started)
-        on_first(sim.crossing(), [&] { loaded.world = read_world(file, check, sim.scene()); });
+        loaded.world = read_world(file, check, sim);
     return loaded;
 }
 
 } // namespace
 
 void save_checkpoint(const std::string &path, const Sim &sim, const World *world, const OutputPosition &position) {
-    std::vector<unsigned char> bytes;
-    const std::string target = replaceable_path(path); // before the work
-    {
-        Session session;
-        CheckpointWriter file(path);
-        const Progress progress = sim.progress();
-        write_scene(file, sim.scene());
-        exchange_progress(file, progress);
-        const PositionTable at{position, {position.path.begin(), position.path.end()}};
-        exchange_position(file, at);
+    if (!sim.crossing()) {
+        Saving saving(path, sim, world, 0, position);
         if (world)
-            write_world(file, *world);
-        bytes = file.bytes();
+            saving.write_particles(*world);
+        if (world && world->sleep.in_use)
+            saving.write_loads_of_sleep(loads_of_all(*world));
+        saving.put_into_place();
+        return;
     }
-    replace_file(target, bytes.data(), bytes.size());
+    const int64_t all = world ? count_of_all(*world) : 0;
+    OnFirst first(*sim.crossing());
+    std::unique_ptr<Saving> saving;
+    first.run([&] { saving = std::make_unique<Saving>(path, sim, world, all, position); });
+    if (world)
+        for_each_row(*world, [&](const auto &rows) { first.run([&] { saving->append(rows); }); });
+    if (world && world->sleep.in_use) {
+        const std::vector<MeanLoad> loads = loads_of_all(*world);
+        first.run([&] { saving->write_loads_of_sleep(loads); });
+    }
+    first.run([&] { saving->put_into_place(); });
+    first.finish();
 }
 
-void load_checkpoint(const std::string &path, const std::function<Sim &(const gp_config &)> &create,
+namespace {
+
+// The first of several processes reads all of the file for its checksum; the others make sure that theirs is the same.
+void require_whole(const CheckpointReader &file, Crossing *crossing) {
+    on_first(crossing, [&] { file.require_whole(); });
+    if (!crossing)
+        return;
+    std::string text = file.text();
+    tell_all_of(*crossing, text);
+    if (text != file.text())
+        file.refuse("it is another one than that of the first process");
+}
+
+} // namespace
+
+void load_checkpoint(const std::string &path, Crossing *crossing, const std::function<Sim &(const gp_config &)> &create,
                      OutputPosition &position) {
+    Session session;
+    CheckpointReader file(path);
+    require_whole(file, crossing);
+    file.open();
     Loaded loaded;
-    {
-        std::vector<unsigned char> bytes = read_file(path);
-        Session session;
-        CheckpointReader file(path, std::move(bytes));
-        try {
-            loaded = read_all(file, create, position);
-        } catch (const Error &error) {
-            // What a host would be told about an argument is here about the file.
-            if (error.status() == GP_E_ARGUMENT || error.status() == GP_E_STATE || error.status() == GP_E_DIVERGED)
-                file.refuse(error.what());
-            throw;
-        }
+    try {
+        loaded = read_all(file, create, position);
+    } catch (const Error &error) {
+        // What a host would be told about an argument is here about the file.
+        if (error.status() == GP_E_ARGUMENT || error.status() == GP_E_STATE || error.status() == GP_E_DIVERGED)
+            file.refuse(error.what());
+        throw;
     }
-    loaded.sim->resume(std::move(loaded.world), loaded.progress); // without the file, 125 bytes a particle and more
+    loaded.sim->resume(std::move(loaded.world), loaded.progress);
 }
 
 #endif

@@ -19,15 +19,21 @@ public:
         if (!good)
             file_.refuse(what);
     }
+    // text(): made only where it is wanted, for what is required of each particle.
+    template <class Text> void require_each(bool good, const Text &text) const {
+        if (!good)
+            file_.refuse(text());
+    }
     template <class Array> void same_size(const char *what, const Array &array, std::size_t size) const {
         require(array.size() == size, format_text("%s: %zu values, expected %zu", what, array.size(), size));
     }
     template <class Array> void all_finite(const char *what, const Array &array) const {
         for (const double value : array)
-            require(std::isfinite(value), format_text("%s: %g, expected a finite number", what, value));
+            finite(what, value);
     }
     void finite(const char *what, double value) const {
-        require(std::isfinite(value), format_text("%s: %g, expected a finite number", what, value));
+        require_each(std::isfinite(value),
+                     [&] { return format_text("%s: %g, expected a finite number", what, value); });
     }
     void not_negative(const char *what, double value) const {
         require(std::isfinite(value) && value >= 0, format_text("%s: %g, expected a number >= 0", what, value));
@@ -36,7 +42,9 @@ public:
         std::vector<bool> seen(array.size());
         for (const auto value : array) {
             const bool good = value >= 0 && static_cast<std::size_t>(value) < array.size() && !seen[value];
-            require(good, format_text("%s: %lld, expected each place once", what, static_cast<long long>(value)));
+            require_each(good, [&] {
+                return format_text("%s: %lld, expected each place once", what, static_cast<long long>(value));
+            });
             seen[value] = true;
         }
     }

@@ -1,14 +1,17 @@
 #include "io/checkpoint_file.hpp"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstring>
+
+#include "io/checkpoint_store.hpp"
 
 namespace gp::io {
 
 namespace {
 
-constexpr std::size_t text_size = 512; // of the user block
-constexpr std::size_t memory_step = std::size_t{1} << 20;
+constexpr std::size_t text_size = 512;                   // of the user block
+constexpr std::size_t piece_size = std::size_t{1} << 18; // of a file that is read for its checksum
 constexpr char title[] = "granperi checkpoint\n";
 constexpr unsigned char hdf5_signature[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
 
@@ -22,13 +25,6 @@ uint64_t checksum_of(const unsigned char *bytes, std::size_t size, uint64_t sum)
         sum ^= sum >> 32;
     }
     return sum;
-}
-
-// The text but for its checksum counts, too.
-uint64_t checksum_of(const std::string &text, const std::vector<unsigned char> &bytes) {
-    const uint64_t of_text =
-        checksum_of(reinterpret_cast<const unsigned char *>(text.data()), text.size(), text.size());
-    return checksum_of(bytes.data() + text_size, bytes.size() - text_size, of_text);
 }
 
 std::string text_without_checksum(uint64_t format, const std::string &library, std::size_t size) {
@@ -52,23 +48,46 @@ std::string word_of_line(const std::string &text, const char *name, std::size_t 
     return word;
 }
 
-bool is_hdf5(const std::vector<unsigned char> &bytes) {
-    return bytes.size() >= sizeof hdf5_signature &&
-           std::memcmp(bytes.data(), hdf5_signature, sizeof hdf5_signature) == 0;
+// The text but for its checksum counts, too.
+std::string sealed(const std::string &text, const unsigned char *bytes, std::size_t size) {
+    const uint64_t of_text =
+        checksum_of(reinterpret_cast<const unsigned char *>(text.data()), text.size(), text.size());
+    return whole_text(text, checksum_of(bytes, size, of_text));
+}
+
+// The same of a file behind its text.
+std::string sealed(const std::string &text, int fd, uint64_t size, const std::string &path) {
+    uint64_t sum = checksum_of(reinterpret_cast<const unsigned char *>(text.data()), text.size(), text.size());
+    std::vector<unsigned char> piece(piece_size);
+    for (uint64_t at = text_size; at < size;) {
+        const std::size_t some =
+            read_some(fd, piece.data(), static_cast<std::size_t>(std::min<uint64_t>(piece_size, size - at)), at, path);
+        if (some == 0)
+            break;
+        sum = checksum_of(piece.data(), some, sum);
+        at += some;
+    }
+    return whole_text(text, sum);
 }
 
 Error bad_file(const std::string &path, const std::string &why) {
     return make_error(GP_E_IO, "%s: %s", path.c_str(), why.c_str());
 }
 
-// Everything about the file that can be told without HDF5.
-void check_bytes(const std::string &path, const std::vector<unsigned char> &bytes) {
-    if (bytes.size() < sizeof title - 1 || std::memcmp(bytes.data(), title, sizeof title - 1) != 0)
-        throw bad_file(path, is_hdf5(bytes) ? "an HDF5 file, but not a checkpoint of granperi (gp_save)"
-                                            : "not a checkpoint of granperi (gp_save)");
-    if (bytes.size() <= text_size)
-        throw bad_file(path, format_text("the checkpoint is cut off after %zu bytes", bytes.size()));
-    const std::string text(reinterpret_cast<const char *>(bytes.data()), text_size);
+// What the text says.
+struct Said {
+    unsigned long long format;
+    std::string library;
+};
+
+Said check_text(const std::string &path, const std::string &text, uint64_t size_of_file) {
+    const bool is_hdf5 =
+        text.size() >= sizeof hdf5_signature && std::memcmp(text.data(), hdf5_signature, sizeof hdf5_signature) == 0;
+    if (text.compare(0, sizeof title - 1, title) != 0)
+        throw bad_file(path, is_hdf5 ? "an HDF5 file, but not a checkpoint of granperi (gp_save)"
+                                     : "not a checkpoint of granperi (gp_save)");
+    if (size_of_file <= text_size)
+        throw bad_file(path, format_text("the checkpoint is cut off after %" PRIu64 " bytes", size_of_file));
     std::size_t at = sizeof title - 1;
     const std::string format = word_of_line(text, "format ", at), library = word_of_line(text, "library ", at);
     const std::string size = word_of_line(text, "bytes ", at);
@@ -78,79 +97,127 @@ void check_bytes(const std::string &path, const std::vector<unsigned char> &byte
     if (!is_number(format) || format.size() > 9 || library.empty() || !is_number(size))
         throw bad_file(path, "the checkpoint is damaged: its first lines");
     const unsigned long long expected = std::strtoull(size.c_str(), nullptr, 10);
-    if (bytes.size() != expected)
-        throw bad_file(path, format_text("the checkpoint is damaged: %zu bytes of %llu", bytes.size(), expected));
-    const unsigned long long number = std::strtoull(format.c_str(), nullptr, 10);
-    const std::string own = text_without_checksum(number, library, bytes.size());
-    if (text != whole_text(own, checksum_of(own, bytes)))
-        throw bad_file(path, "the checkpoint is damaged: its checksum is wrong");
-    if (number == 0)
-        throw bad_file(path, "there is no format 0 of checkpoints");
-    if (number != checkpoint_format) // what an earlier step left out cannot be made up: volume, walls, sums of the state
-        throw make_error(GP_E_VERSION, "%s: written by granperi %s in format %llu; this version, %s, reads format %u",
-                         path.c_str(), library.c_str(), number, gp_version_string(), checkpoint_format);
+    if (size_of_file != expected)
+        throw bad_file(path,
+                       format_text("the checkpoint is damaged: %" PRIu64 " bytes of %llu", size_of_file, expected));
+    return {std::strtoull(format.c_str(), nullptr, 10), library};
 }
 
 } // namespace
 
 void seal(std::vector<unsigned char> &file, uint32_t format) {
     const std::string text = text_without_checksum(format, gp_version_string(), file.size());
-    const std::string whole = whole_text(text, checksum_of(text, file));
+    const std::string whole = sealed(text, file.data() + text_size, file.size() - text_size);
     std::copy(whole.begin(), whole.end(), file.begin());
 }
 
+namespace {
+
+std::unique_ptr<CheckpointStore> store_in(int fd, haddr_t size) {
+    auto store = std::make_unique<CheckpointStore>();
+    store->fd = fd;
+    store->shift = text_size;
+    store->end = size;
+    return store;
+}
+
+} // namespace
+
 // ------------------------------------------------------------------------------------------------------ writing
 
-CheckpointWriter::CheckpointWriter(const std::string &file_path) {
+CheckpointWriter::CheckpointWriter(const std::string &file_path) : new_file_(file_path) {
     path = file_path;
     check_version();
+    store_ = store_in(new_file_.descriptor(), 0);
+    driver = own(H5FDregister(&checkpoint_store_driver()), "register the file driver");
     access = own(H5Pcreate(H5P_FILE_ACCESS), "describe the checkpoint");
-    check(H5Pset_fapl_core(access, memory_step, false), "describe the checkpoint");
+    CheckpointStore *const target = store_.get();
+    check(H5Pset_driver(access, driver, &target), "describe the checkpoint");
     check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "describe the checkpoint");
     file = own(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "make the checkpoint");
+}
+
+CheckpointWriter::~CheckpointWriter() {
+    group_.close();
+    file.close(); // before the store goes
 }
 
 void CheckpointWriter::group(const char *name) {
     group_ = make_group(name, 16);
 }
 
-void CheckpointWriter::write_array(const char *name, hid_t stored, hid_t native, std::size_t size, const void *values) {
+Id CheckpointWriter::make_array(const char *name, hid_t stored, std::size_t size) {
     const std::string what = std::string("write ") + name;
     Id how = own(H5Pcreate(H5P_DATASET_CREATE), what);
-    check(H5Pset_obj_track_times(how, false), what); // the same state gives the same bytes
+    check(H5Pset_obj_track_times(how, false), what);           // the same state gives the same bytes,
+    check(H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY), what); // in whatever order they come
+    check(H5Pset_fill_time(how, H5D_FILL_TIME_NEVER), what);
     const Id extent = space({size}, {size});
-    const Id dataset = own(H5Dcreate2(group_, name, stored, extent, H5P_DEFAULT, how, H5P_DEFAULT), what);
-    if (size > 0)
-        check(H5Dwrite(dataset, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), what);
+    return own(H5Dcreate2(group_, name, stored, extent, H5P_DEFAULT, how, H5P_DEFAULT), what);
 }
 
-std::vector<unsigned char> CheckpointWriter::bytes() {
+void CheckpointWriter::append(Growing &array, const void *values, std::size_t count) {
+    if (count == 0)
+        return;
+    const std::string what = "write " + array.name;
+    const Id memory = space({count}, {count}), place = space({array.size}, {array.size});
+    const hsize_t first = array.done, some = count;
+    check(H5Sselect_hyperslab(place, H5S_SELECT_SET, &first, nullptr, &some, nullptr), what);
+    check(H5Dwrite(array.dataset, array.native, memory, place, H5P_DEFAULT, values), what);
+    array.done += count;
+    if (store_->error != 0)
+        throw io_failure(path, "write the file", store_->error);
+}
+
+void CheckpointWriter::put_into_place() {
     group_.close();
-    check(H5Fflush(file, H5F_SCOPE_LOCAL), "make the checkpoint");
-    const ssize_t size = check(H5Fget_file_image(file, nullptr, 0), "make the checkpoint");
-    // HDF5 finds itself behind a block of 512 bytes.
-    std::vector<unsigned char> whole(text_size + static_cast<std::size_t>(size));
-    check(H5Fget_file_image(file, whole.data() + text_size, static_cast<std::size_t>(size)), "make the checkpoint");
-    file.close();
-    seal(whole);
-    return whole;
+    const bool good = H5Fclose(file.release()) >= 0;
+    if (store_->error != 0)
+        throw io_failure(path, "write the file", store_->error);
+    check(good ? 0 : -1, "make the checkpoint");
+    const uint64_t size = text_size + store_->end;
+    const std::string text = text_without_checksum(checkpoint_format, gp_version_string(), size);
+    const std::string whole = sealed(text, new_file_.descriptor(), size, path);
+    if (!write_all(new_file_.descriptor(), whole.data(), whole.size(), 0))
+        throw io_failure(path, "write the file", errno);
+    new_file_.put_into_place();
 }
 
 // ------------------------------------------------------------------------------------------------------ reading
 
-CheckpointReader::CheckpointReader(const std::string &file_path, std::vector<unsigned char> bytes)
-    : file_size_(bytes.size()) {
+CheckpointReader::CheckpointReader(const std::string &file_path) : old_file_(file_path), text_(text_size, '\0') {
     path = file_path;
+    text_.resize(read_some(old_file_.descriptor(), text_.data(), text_.size(), 0, path));
+    check_text(path, text_, old_file_.size());
+}
+
+CheckpointReader::~CheckpointReader() {
+    group_.close();
+    file.close(); // before the store goes
+}
+
+void CheckpointReader::require_whole() const {
+    const Said said = check_text(path, text_, old_file_.size());
+    const std::string own = text_without_checksum(said.format, said.library, old_file_.size());
+    if (text_ != sealed(own, old_file_.descriptor(), old_file_.size(), path))
+        throw bad_file(path, "the checkpoint is damaged: its checksum is wrong");
+    if (said.format == 0)
+        throw bad_file(path, "there is no format 0 of checkpoints");
+    if (said.format !=
+        checkpoint_format) // what an earlier step left out cannot be made up: volume, walls, sums of the state
+        throw make_error(GP_E_VERSION, "%s: written by granperi %s in format %llu; this version, %s, reads format %u",
+                         path.c_str(), said.library.c_str(), said.format, gp_version_string(), checkpoint_format);
+}
+
+void CheckpointReader::open() {
     check_version();
-    check_bytes(path, bytes);
+    store_ = store_in(old_file_.descriptor(), old_file_.size() - text_size);
+    driver = own(H5FDregister(&checkpoint_store_driver()), "register the file driver");
     access = own(H5Pcreate(H5P_FILE_ACCESS), "open the checkpoint");
-    check(H5Pset_fapl_core(access, memory_step, false), "open the checkpoint");
+    CheckpointStore *const source = store_.get();
+    check(H5Pset_driver(access, driver, &source), "open the checkpoint");
     check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "open the checkpoint");
-    // copies them
-    check(H5Pset_file_image(access, bytes.data() + text_size, bytes.size() - text_size), "open the checkpoint");
-    bytes = {};
-    // HDF5 makes sure that there is no file of the name that it is given for what is in memory.
-    file = own(H5Fopen("/dev/null/granperi checkpoint", H5F_ACC_RDONLY, access), "open the checkpoint");
+    file = own(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), "open the checkpoint");
 }
 
 void CheckpointReader::refuse(const std::string &why) const {
@@ -196,14 +263,35 @@ std::size_t CheckpointReader::array_size(const char *name, hid_t dataset, std::s
         refuse(what + " is not a row of numbers");
     hsize_t size = 0;
     check(H5Sget_simple_extent_dims(extent, &size, nullptr), "read " + what);
-    if (size > file_size_ / item || (size > 0 && H5Dget_storage_size(dataset) != size * item))
+    if (size > old_file_.size() / item || (size > 0 && H5Dget_storage_size(dataset) != size * item))
         refuse(what + " is longer than the file");
     return static_cast<std::size_t>(size);
 }
 
-void CheckpointReader::read_array(const char *name, hid_t dataset, hid_t native, void *values, std::size_t size) const {
-    if (size > 0)
-        check(H5Dread(dataset, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read " + group_name_ + "/" + name);
+void CheckpointReader::require_size(const char *name, std::size_t size, std::size_t expected) const {
+    if (size != expected)
+        refuse(group_name_ + "/" + name + format_text(": %zu values, expected %zu", size, expected));
+}
+
+void CheckpointReader::read_some_of(const char *name, hid_t dataset, hid_t native, std::size_t first, std::size_t count,
+                                    void *values) const {
+    if (count == 0)
+        return;
+    const std::string what = "read " + group_name_ + "/" + name;
+    const Id place = own(H5Dget_space(dataset), what), memory = space({count}, {count});
+    const hsize_t start = first, some = count;
+    check(H5Sselect_hyperslab(place, H5S_SELECT_SET, &start, nullptr, &some, nullptr), what);
+    check(H5Dread(dataset, native, memory, place, H5P_DEFAULT, values), what);
+}
+
+void CheckpointReader::read_at(const char *name, hid_t dataset, hid_t native, const std::vector<hsize_t> &places,
+                               void *values) const {
+    if (places.empty())
+        return;
+    const std::string what = "read " + group_name_ + "/" + name;
+    const Id place = own(H5Dget_space(dataset), what), memory = space({places.size()}, {places.size()});
+    check(H5Sselect_elements(place, H5S_SELECT_SET, places.size(), places.data()), what);
+    check(H5Dread(dataset, native, memory, place, H5P_DEFAULT, values), what);
 }
 
 } // namespace gp::io

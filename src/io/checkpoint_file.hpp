@@ -1,29 +1,31 @@
 // The container of a checkpoint: named numbers and arrays in an HDF5 file behind a block of text.
 //
 //   byte 0     granperi checkpoint
-//              format 3
+//              format 4
 //              library 0.2.0
 //              bytes <of the whole file, 20 digits>
 //              checksum <of all other bytes, 16 hexadecimal digits>
 //              and zeros up to byte 512
 //   byte 512   HDF5: groups with numbers as attributes and arrays as one-dimensional datasets
 //
-// The text has this form in every format, so that damage can be told from a newer version. The file is made and read in
-// memory: HDF5 sees nothing but what has the right checksum.
+// The text has this form in every format, so that damage can be told from a newer version. HDF5 reads nothing before the checksum
+// has been found right. Nothing of the file is held in memory: what writes and reads arrays some values at a time needs no more.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "io/hdf5_writer.hpp"
+#include "io/safe_file.hpp"
 
 namespace gp::io {
 
-constexpr uint32_t checkpoint_format = 3;
+constexpr uint32_t checkpoint_format = 4;
 
-// Writes the text in front of a whole file, whose first 512 bytes are free for it.
+// Writes the text in front of a whole file in memory, whose first 512 bytes are free for it.
 void seal(std::vector<unsigned char> &file, uint32_t format = checkpoint_format);
 
 template <class T> hid_t stored_type() {
@@ -60,29 +62,49 @@ template <class T> hid_t native_type() {
     }
 }
 
+struct CheckpointStore;
+
 // Writer and reader have the same calls, so that one description of a part serves both.
 class CheckpointWriter : private Hdf5Writer {
 public:
     static constexpr bool reads = false;
 
     explicit CheckpointWriter(const std::string &file_path);
+    ~CheckpointWriter();
 
     void group(const char *name);
     template <class T> void value(const char *name, const T &number) {
         set_attribute(group_, name, stored_type<T>(), native_type<T>(), {}, &number);
     }
     void value(const char *name, const bool &yes) { value(name, static_cast<int32_t>(yes)); }
-    template <class Array> void array(const char *name, const Array &values) {
+    template <class Array> void array(const char *name, const Array &values) { array(name, values, values.size()); }
+    // Of the first so many values.
+    template <class Array> void array(const char *name, const Array &values, std::size_t size) {
         using T = typename Array::value_type;
-        write_array(name, stored_type<T>(), native_type<T>(), values.size(), values.data());
+        Growing array = begin_array<T>(name, size);
+        append(array, values.data(), size);
     }
 
-    // The whole file.
-    std::vector<unsigned char> bytes();
+    // An array of so many values, which come some at a time.
+    struct Growing {
+        std::string name;
+        Id dataset;
+        hid_t native;
+        std::size_t size, done = 0;
+    };
+    template <class T> Growing begin_array(const char *name, std::size_t size) {
+        return {name, make_array(name, stored_type<T>(), size), native_type<T>(), size};
+    }
+    void append(Growing &array, const void *values, std::size_t count);
+
+    // The file is whole.
+    void put_into_place();
 
 private:
-    void write_array(const char *name, hid_t stored, hid_t native, std::size_t size, const void *values);
+    Id make_array(const char *name, hid_t stored, std::size_t size);
 
+    std::unique_ptr<CheckpointStore> store_;
+    NewFile new_file_;
     Id group_;
 };
 
@@ -90,8 +112,15 @@ class CheckpointReader : private Hdf5Writer {
 public:
     static constexpr bool reads = true;
 
-    // Checks the text and the checksum, and takes the bytes. Throws gp::Error: GP_E_IO, GP_E_VERSION.
-    CheckpointReader(const std::string &file_path, std::vector<unsigned char> bytes);
+    // Checks what the text says of the file but for its checksum. Throws gp::Error: GP_E_IO.
+    explicit CheckpointReader(const std::string &file_path);
+    ~CheckpointReader();
+    // Reads all of the file for its checksum. Throws gp::Error: GP_E_IO, GP_E_VERSION.
+    void require_whole() const;
+    // Of a file that is whole. Within a Session.
+    void open();
+    // With its checksum.
+    const std::string &text() const { return text_; }
 
     void group(const char *name);
     template <class T> void value(const char *name, T &number) {
@@ -105,10 +134,24 @@ public:
         yes = number == 1;
     }
     template <class Array> void array(const char *name, Array &values) {
+        values.resize(size_of<typename Array::value_type>(name));
+        array(name, values, values.size());
+    }
+    // Of so many values, which is what there has to be; what is behind them stays as it is.
+    template <class Array> void array(const char *name, Array &values, std::size_t size) {
         using T = typename Array::value_type;
-        const Id dataset = open_array(name, stored_type<T>());
-        values.resize(array_size(name, dataset, sizeof(T)));
-        read_array(name, dataset, native_type<T>(), values.data(), values.size());
+        require_size(name, size_of<T>(name), size);
+        some(name, 0, size, values.data());
+    }
+    template <class T> std::size_t size_of(const char *name) const {
+        return array_size(name, open_array(name, stored_type<T>()), sizeof(T));
+    }
+    // A stretch of an array, or its values at some places: those are within it.
+    template <class T> void some(const char *name, std::size_t first, std::size_t count, T *values) const {
+        read_some_of(name, open_array(name, stored_type<T>()), native_type<T>(), first, count, values);
+    }
+    template <class T> void some(const char *name, const std::vector<hsize_t> &places, T *values) const {
+        read_at(name, open_array(name, stored_type<T>()), native_type<T>(), places, values);
     }
 
     // What the file holds cannot be.
@@ -118,10 +161,15 @@ private:
     void read_value(const char *name, hid_t stored, hid_t native, void *number) const;
     Id open_array(const char *name, hid_t stored) const;
     std::size_t array_size(const char *name, hid_t dataset, std::size_t item) const;
-    void read_array(const char *name, hid_t dataset, hid_t native, void *values, std::size_t size) const;
+    void require_size(const char *name, std::size_t size, std::size_t expected) const;
+    void read_some_of(const char *name, hid_t dataset, hid_t native, std::size_t first, std::size_t count,
+                      void *values) const;
+    void read_at(const char *name, hid_t dataset, hid_t native, const std::vector<hsize_t> &places, void *values) const;
     void require_type(const std::string &what, hid_t found, hid_t stored) const;
 
-    std::size_t file_size_ = 0;
+    OldFile old_file_;
+    std::string text_;
+    std::unique_ptr<CheckpointStore> store_;
     std::string group_name_;
     Id group_;
 };

@@ -30,13 +30,14 @@ template <class File, class Table> void exchange_materials(File &file, Table &t)
     file.array("k0", t.k0);
 }
 
-// Columns as they were added, and sets of particles with their initial positions and velocities one after the other.
+// Columns as they were added; and sets of particles, which have their initial positions and velocities one after the other.
 struct BodyTable {
     std::vector<int32_t> material, is_column, initial_pressure;
     std::vector<int64_t> count;
     std::vector<double> x_min, y_min, width, height, column_vx, column_vy;
-    std::vector<double> x, y, vx, vy;
 };
+
+constexpr const char *set_arrays[] = {"particle_x", "particle_y", "particle_vx", "particle_vy"};
 
 template <class File, class Table> void exchange_bodies(File &file, Table &t) {
     file.group("/bodies");
@@ -50,10 +51,6 @@ template <class File, class Table> void exchange_bodies(File &file, Table &t) {
     file.array("height", t.height);
     file.array("column_vx", t.column_vx);
     file.array("column_vy", t.column_vy);
-    file.array("particle_x", t.x);
-    file.array("particle_y", t.y);
-    file.array("particle_vx", t.vx);
-    file.array("particle_vy", t.vy);
 }
 
 // Plates as they were added or, driven before the first step, have become since. Knots one plate after the other.
@@ -163,19 +160,18 @@ template <class File, class W> void exchange_clock_and_sums(File &file, W &w) {
 // The lists themselves are made anew from where the particles and plates were when they were made.
 struct ListTable {
     bool valid = false;
-    double skin = 0, shifted = 0;
+    double skin = 0, shifted = 0, closed_in = 0;
     std::vector<double> plate_x, plate_y, plate_angle; // shift and turn
     std::vector<int32_t> plate_driven; // by the host: which plates made one wall follows from how they move
     std::vector<double> plate_vx, plate_vy, plate_omega;
 };
 
-template <class File, class Table, class W> void exchange_lists(File &file, Table &t, W &w) {
+template <class File, class Table> void exchange_lists(File &file, Table &t) {
     file.group("/lists");
     file.value("valid", t.valid);
     file.value("skin", t.skin);
     file.value("shifted", t.shifted);
-    file.array("x", w.list_origin.x);
-    file.array("y", w.list_origin.y);
+    file.value("closed_in", t.closed_in);
     file.array("plate_x", t.plate_x);
     file.array("plate_y", t.plate_y);
     file.array("plate_driven", t.plate_driven);
@@ -185,26 +181,32 @@ template <class File, class Table, class W> void exchange_lists(File &file, Tabl
     file.array("plate_omega", t.plate_omega);
 }
 
-// In the engine's own order, with the images across the ends of a period.
-template <class File, class P, class Listed> void exchange_particles(File &file, P &p, Listed &listed) {
-    file.group("/particles");
-    file.array("listed", listed);
-    file.array("id", p.id);
-    file.array("column", p.column);
-    file.array("x", p.x);
-    file.array("y", p.y);
-    file.array("vx", p.vx);
-    file.array("vy", p.vy);
-    file.array("density", p.density);
-    file.array("pressure", p.pressure);
-    file.array("sxx", p.sxx);
-    file.array("sxy", p.sxy);
-    file.array("syy", p.syy);
-    file.array("fluidity", p.fluidity);
-    file.array("lxx", p.lxx);
-    file.array("lxy", p.lxy);
-    file.array("lyx", p.lyx);
-    file.array("lyy", p.lyy);
+// Where the particles were when the lists were made, in the order of these.
+template <class X, class Body> void for_each_listed_array(X &x, X &y, const Body &body) {
+    body("listed_x", x);
+    body("listed_y", y);
+}
+
+// In the engine's own order. Those that are not in use have no values. Images across the ends of a period follow from these.
+template <class P, class Body> void for_each_particle_array(P &p, const Body &body) {
+    body("id", p.id);
+    body("column", p.column);
+    body("x", p.x);
+    body("y", p.y);
+    body("vx", p.vx);
+    body("vy", p.vy);
+    body("density", p.density);
+    body("pressure", p.pressure);
+    body("sxx", p.sxx);
+    body("sxy", p.sxy);
+    body("syy", p.syy);
+    body("fluidity", p.fluidity);
+    body("lxx", p.lxx);
+    body("lxy", p.lxy);
+    body("lyx", p.lyx);
+    body("lyy", p.lyy);
+    if (p.repose.in_use())
+        Repose::for_each(p.repose, body);
 }
 
 struct PlateMotionTable {
@@ -272,13 +274,10 @@ template <class File, class Table> void exchange_motions(File &file, Table &t) {
     file.array("gap", t.gap);
 }
 
-// Where the ghosts are now; which there are follows from the lists.
+// Which ghosts there are follows from the lists, and where they are from their plates: as these were then, or are now.
 template <class File, class W> void exchange_ghosts(File &file, W &walls) {
     file.group("/ghosts");
-    file.array("x", walls.ghost_x);
-    file.array("y", walls.ghost_y);
-    file.array("nx", walls.ghost_nx);
-    file.array("ny", walls.ghost_ny);
+    file.value("placed", walls.ghosts_placed);
 }
 
 struct PieceTable {

@@ -1,6 +1,7 @@
 #include "io/checkpoint_scene.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include "io/checkpoint_parts.hpp"
 
@@ -43,6 +44,7 @@ void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
 
 void write_bodies(CheckpointWriter &file, const Scene &scene) {
     BodyTable bodies;
+    std::size_t particles = 0; // of sets
     for (const Body &b : scene.bodies()) {
         bodies.material.push_back(b.material);
         bodies.is_column.push_back(b.rectangle);
@@ -54,30 +56,29 @@ void write_bodies(CheckpointWriter &file, const Scene &scene) {
         bodies.height.push_back(b.height);
         bodies.column_vx.push_back(b.rectangle ? scene.vx[b.first] : 0.0);
         bodies.column_vy.push_back(b.rectangle ? scene.vy[b.first] : 0.0);
-        if (b.rectangle)
-            continue;
-        const auto append = [&](std::vector<double> &to, const std::vector<double> &from) {
-            to.insert(to.end(), from.begin() + b.first, from.begin() + b.first + b.count);
-        };
-        append(bodies.x, scene.x);
-        append(bodies.y, scene.y);
-        append(bodies.vx, scene.vx);
-        append(bodies.vy, scene.vy);
+        particles += b.rectangle ? 0 : static_cast<std::size_t>(b.count);
     }
     exchange_bodies(file, bodies);
+    const std::vector<double> *values[] = {&scene.x, &scene.y, &scene.vx, &scene.vy};
+    for (std::size_t k = 0; k < std::size(values); ++k) {
+        CheckpointWriter::Growing array = file.begin_array<double>(set_arrays[k], particles);
+        for (const Body &b : scene.bodies())
+            if (!b.rectangle)
+                file.append(array, values[k]->data() + b.first, static_cast<std::size_t>(b.count));
+    }
 }
 
 void read_bodies(CheckpointReader &file, const Checker &check, Sim &sim) {
     BodyTable t;
     exchange_bodies(file, t);
-    const std::size_t n = t.material.size(), particles = t.x.size();
+    const std::size_t n = t.material.size(), particles = file.size_of<double>(set_arrays[0]);
     check.same_size("bodies", t.is_column, n);
     check.same_size("bodies", t.initial_pressure, n);
     check.same_size("bodies", t.count, n);
     for (const auto *array : {&t.x_min, &t.y_min, &t.width, &t.height, &t.column_vx, &t.column_vy})
         check.same_size("bodies", *array, n);
-    for (const auto *array : {&t.y, &t.vx, &t.vy})
-        check.same_size("particles of bodies", *array, particles);
+    for (const char *name : set_arrays)
+        check.require(file.size_of<double>(name) == particles, "particles of bodies: arrays of other sizes");
     const double spacing = sim.scene().config().spacing;
     std::size_t first = 0;
     for (std::size_t k = 0; k < n; ++k) {
@@ -99,8 +100,14 @@ void read_bodies(CheckpointReader &file, const Checker &check, Sim &sim) {
             check.require(count > 0 && count <= static_cast<double>(particles - first),
                           format_text("set %zu of particles has %g of %zu", k, count, particles - first));
             const bool own = !sim.crossing() || sim.crossing()->rank() == 0; // each process adds its own
-            sim.add_particles(t.material[k], own ? t.count[k] : 0, &t.x[first], &t.y[first], &t.vx[first],
-                              &t.vy[first]);
+            const auto size = static_cast<std::size_t>(own ? t.count[k] : 0);
+            std::vector<double> values[std::size(set_arrays)];
+            for (std::size_t a = 0; a < std::size(values); ++a) {
+                values[a].resize(size);
+                file.some(set_arrays[a], first, size, values[a].data());
+            }
+            sim.add_particles(t.material[k], static_cast<int64_t>(size), values[0].data(), values[1].data(),
+                              values[2].data(), values[3].data());
             first += static_cast<std::size_t>(t.count[k]);
         }
     }

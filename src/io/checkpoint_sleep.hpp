@@ -1,109 +1,86 @@
-// What a checkpoint keeps of a scene that sleeps (gp_config.sleep): who sleeps, for how long each particle has been quiet, what
-// the steps do not make anew of what sleeps, and the loads. Only checkpoint.cpp includes this. Blocks and what they see follow
-// from the lists, as after any new lists.
+// What a checkpoint keeps of a scene that sleeps (gp_config.sleep) beside what is of each particle: the loads of what presses plates,
+// in the order of id. Only checkpoint.cpp includes this. Spans and what they see follow from the lists, as after any new lists.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "error.hpp"
-#include "io/checkpoint_file.hpp"
-#include "world.hpp"
+#include "io/checkpoint_checks.hpp"
+#include "stretches.hpp"
 
 namespace gp::io {
 
-// Every number of a particle's rest that there is, and of a load, by its name in the file.
-template <class Visit> void for_each_of_repose(const Visit &visit) {
-    visit("quiet_for", &Repose::quiet_for);
-    visit("way_x", &Repose::way_x);
-    visit("way_y", &Repose::way_y);
-    visit("pressure", &Repose::pressure);
-    visit("sxx", &Repose::sxx);
-    visit("sxy", &Repose::sxy);
-    visit("fluidity", &Repose::fluidity);
-    visit("gxx", &Repose::gxx);
-    visit("gxy", &Repose::gxy);
-    visit("gyy", &Repose::gyy);
-    visit("stressed", &Repose::stressed);
-}
+// Every number of a load, by its name in the file.
 template <class Visit> void for_each_of_load(const Visit &visit) {
-    visit("load_id", &MeanLoad::id);
-    visit("load_plate", &MeanLoad::plate);
-    visit("load_x", &MeanLoad::x);
-    visit("load_y", &MeanLoad::y);
-    visit("load_couple", &MeanLoad::couple);
+    visit("id", &MeanLoad::id);
+    visit("plate", &MeanLoad::plate);
+    visit("x", &MeanLoad::x);
+    visit("y", &MeanLoad::y);
+    visit("couple", &MeanLoad::couple);
 }
 
-inline void write_sleep(CheckpointWriter &file, const World &world) {
-    const Particles &p = world.particles;
-    file.group("/sleep");
-    file.array("asleep", std::vector<uint8_t>(p.asleep.begin(), p.asleep.begin() + p.count));
-    for_each_of_repose([&](const char *name, auto member) {
-        std::vector<double> values;
-        for (int64_t i = 0; i < p.count; ++i)
-            values.push_back(p.repose[i].*member);
-        file.array(name, values);
+// Those of all processes, on the first. Collective.
+inline std::vector<MeanLoad> loads_of_all(const World &world) {
+    std::vector<MeanLoad> own = world.sleep.loads, all;
+    std::stable_sort(own.begin(), own.end(), [](const MeanLoad &a, const MeanLoad &b) { return a.id < b.id; });
+    if (!world.crossing)
+        return own;
+    OrderedRows rows;
+    rows.count = static_cast<int64_t>(own.size());
+    rows.numbers = static_cast<int>(MeanLoad::numbers);
+    rows.key_of = [&](int64_t k, double *key) {
+        key[0] = static_cast<double>(own[static_cast<std::size_t>(k)].id);
+        key[1] = static_cast<double>(k);
+        key[2] = 0;
+    };
+    rows.pack = [&](int64_t k, double *out) { own[static_cast<std::size_t>(k)].put(out); };
+    take_in_order(*world.crossing, rows, [&](const std::vector<const double *> &found) {
+        for (const double *row : found)
+            all.push_back(MeanLoad::of(row));
     });
+    return all;
+}
+
+inline void write_loads(CheckpointWriter &file, const std::vector<MeanLoad> &loads) {
+    file.group("/sleep");
     for_each_of_load([&](const char *name, auto member) {
         std::vector<std::decay_t<decltype(std::declval<MeanLoad>().*member)>> values;
-        for (const MeanLoad &load : world.sleep.loads)
+        for (const MeanLoad &load : loads)
             values.push_back(load.*member);
         file.array(name, values);
     });
 }
 
-inline void read_sleep(CheckpointReader &file, World &world) {
-    Particles &p = world.particles;
-    const auto require = [&](bool good, const char *what) {
-        if (!good)
-            file.refuse(format_text("sleep: %s", what));
-    };
-    const auto require_finite = [&](const auto &values) {
-        require(std::all_of(values.begin(), values.end(), [](auto value) { return std::isfinite(double(value)); }),
-                "a number that is not finite");
-    };
-    const auto n = static_cast<std::size_t>(p.count);
-    file.group("/sleep");
-    std::vector<uint8_t> asleep;
-    file.array("asleep", asleep);
-    require(asleep.size() == n, "not one value for each particle");
-    for (std::size_t i = 0; i < n; ++i) {
-        require(asleep[i] <= 1, "asleep is neither 0 nor 1");
-        require(!asleep[i] || (p.vx[i] == 0 && p.vy[i] == 0), "a particle that sleeps and moves");
-        p.asleep[i] = asleep[i];
-    }
-    for_each_of_repose([&](const char *name, auto member) {
-        std::vector<double> values;
-        file.array(name, values);
-        require(values.size() == n, "not one value for each particle");
-        require_finite(values);
-        for (std::size_t i = 0; i < n; ++i) {
-            auto &number = p.repose[i].*member;
-            number = static_cast<std::decay_t<decltype(number)>>(values[i]);
-        }
-    });
+// Particles have been read: of several processes each keeps the loads of its own.
+inline void read_sleep(CheckpointReader &file, const Checker &check, World &world) {
+    const Particles &p = world.particles;
+    for (int64_t i = 0; i < p.count; ++i)
+        check.require_each(p.repose.asleep[i] == 0 || (p.vx[i] == 0 && p.vy[i] == 0),
+                           [] { return std::string("a particle that sleeps and moves"); });
     std::vector<MeanLoad> loads;
-    bool first = true; // of the arrays, which says how many there are
+    file.group("/sleep");
     for_each_of_load([&](const char *name, auto member) {
         std::vector<std::decay_t<decltype(std::declval<MeanLoad>().*member)>> values;
         file.array(name, values);
-        if (first)
+        if (loads.empty()) // the first one says how many there are
             loads.resize(values.size());
-        first = false;
-        require(values.size() == loads.size(), "not as many loads as contacts");
-        require_finite(values);
-        for (std::size_t k = 0; k < values.size(); ++k)
+        check.same_size(name, values, loads.size());
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            check.finite(name, static_cast<double>(values[k]));
             loads[k].*member = values[k];
+        }
     });
+    std::vector<int64_t> own(p.id.begin(), p.id.begin() + p.count);
+    std::sort(own.begin(), own.end());
     for (const MeanLoad &load : loads) {
-        require(load.id >= 0 && load.id < p.count, "a load by no particle");
-        require(load.plate >= 0 && static_cast<std::size_t>(load.plate) < world.walls.plates.size(),
-                "a load on no plate");
+        check.require(load.id >= 0 && load.id < world.scene->particle_count(), "a load by no particle");
+        check.require(load.plate >= 0 && static_cast<std::size_t>(load.plate) < world.walls.plates.size(),
+                      "a load on no plate");
+        if (std::binary_search(own.begin(), own.end(), load.id))
+            world.sleep.loads.push_back(load);
     }
-    world.sleep.loads = std::move(loads);
 }
 
 } // namespace gp::io

@@ -21,36 +21,12 @@ namespace {
                      std::generic_category().message(number).c_str());
 }
 
-// Owns a file descriptor.
-class Descriptor {
-public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    Descriptor(const Descriptor &) = delete;
-    Descriptor &operator=(const Descriptor &) = delete;
-    ~Descriptor() { close(); }
-    operator int() const { return fd_; }
-    bool close() { return fd_ < 0 || ::close(std::exchange(fd_, -1)) == 0; }
-
-private:
-    int fd_;
-};
-
 std::string directory_of(const std::string &path) {
     const std::size_t slash = path.rfind('/');
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// Removes the file of an attempt that fails.
-struct PartFile {
-    std::string path;
-    bool kept = false;
-    ~PartFile() {
-        if (!kept && !path.empty())
-            ::unlink(path.c_str());
-    }
-};
-
-int open_part(const std::string &path, PartFile &part) {
+int open_part(const std::string &path, std::string &part) {
     static std::atomic<uint32_t> counter{0};
     const std::size_t name = path.rfind('/') + 1; // 0 without a directory
     for (int attempt = 0; attempt < 1000; ++attempt) {
@@ -58,9 +34,9 @@ int open_part(const std::string &path, PartFile &part) {
         std::string candidate =
             path.substr(0, name) + path.substr(name, 200) +
             format_text(".part-%ld-%u", static_cast<long>(::getpid()), static_cast<unsigned>(counter++));
-        const int fd = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        const int fd = ::open(candidate.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (fd >= 0) {
-            part.path = std::move(candidate);
+            part = std::move(candidate);
             return fd;
         }
         if (errno != EEXIST)
@@ -145,43 +121,50 @@ void move_into_place(const std::string &from, const std::string &path) {
     sync_directory(directory, path);
 }
 
-void replace_file(const std::string &path, const unsigned char *bytes, std::size_t size) {
-    const std::string target = replaceable_path(path);
-    PartFile part;
-    Descriptor file(open_part(target, part));
-    if (!write_all(file, bytes, size, 0))
-        fail(path, "write the file", errno);
-    if (::fsync(file) != 0)
-        fail(path, "sync the file", errno);
-    if (!file.close())
-        fail(path, "close the file", errno);
-    const Descriptor directory(open_directory(target));
-    rename_file(part.path, target);
-    part.kept = true;
-    sync_directory(directory, target);
+NewFile::NewFile(const std::string &path)
+    : path_(path), target_(replaceable_path(path)), descriptor_(open_part(target_, part_)) {}
+
+NewFile::~NewFile() {
+    if (!part_.empty())
+        ::unlink(part_.c_str());
+}
+
+void NewFile::put_into_place() {
+    if (::fsync(descriptor_) != 0)
+        fail(path_, "sync the file", errno);
+    if (!descriptor_.close())
+        fail(path_, "close the file", errno);
+    const Descriptor directory(open_directory(target_));
+    rename_file(part_, target_);
+    part_.clear();
+    sync_directory(directory, target_);
 }
 
 void require_regular_file(const std::string &path) {
     const Descriptor file(open_regular(path));
 }
 
-std::vector<unsigned char> read_file(const std::string &path) {
-    const Descriptor file(open_regular(path));
+OldFile::OldFile(const std::string &path) : descriptor_(open_regular(path)) {
     struct stat status;
-    if (::fstat(file, &status) != 0)
+    if (::fstat(descriptor_, &status) != 0)
         fail(path, "read the file", errno);
-    std::vector<unsigned char> bytes(static_cast<std::size_t>(status.st_size));
-    for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t n = ::read(file, bytes.data() + done, bytes.size() - done);
+    size_ = static_cast<uint64_t>(status.st_size);
+}
+
+std::size_t read_some(int fd, void *bytes, std::size_t size, uint64_t offset, const std::string &path) {
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t n =
+            ::pread(fd, static_cast<char *>(bytes) + done, size - done, static_cast<off_t>(offset + done));
         if (n < 0 && errno == EINTR)
             continue;
         if (n < 0)
             fail(path, "read the file", errno);
         if (n == 0)
-            bytes.resize(done);
+            break;
         done += static_cast<std::size_t>(n);
     }
-    return bytes;
+    return done;
 }
 
 } // namespace gp::io

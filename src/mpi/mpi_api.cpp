@@ -66,7 +66,7 @@ gp_status gp_load_mpi(const char *path, MPI_Comm comm, gp_sim **sim) {
             return loaded->sim;
         };
         io::OutputPosition left_off;
-        io::load_checkpoint(path, create, left_off);
+        io::load_checkpoint(path, crossing.get(), create, left_off);
         loaded->left_off = std::move(left_off);
         return loaded;
     });

@@ -127,7 +127,13 @@ BlockSums sum_of_blocks(const World &world) {
 
 void measure_velocities(World &world) {
     measure_blocks(world);
-    bound_velocities(world, range_of_blocks(world));
+    BlockRange range = range_of_blocks(world);
+    if (world.crossing) {
+        double far[] = {-range.u_min, range.u_max, -range.v_min, range.v_max};
+        world.crossing->combine(far, 4, nullptr, 0);
+        range = {-far[0], far[1], -far[2], far[3]};
+    }
+    bound_velocities(world, range);
 }
 
 namespace {
@@ -192,6 +198,7 @@ template <bool Adjoint> void close_books(World &world) {
 
     bound_velocities(world, range);
     world.shifted += world.velocity_span * dt;
+    world.closed_in += world.velocity_span * dt;
     for (Plate &plate : world.walls.plates)
         if (plate.gap > 0) {
             const double approach = plate.fastest() + world.fastest;

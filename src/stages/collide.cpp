@@ -42,7 +42,7 @@ struct View {
     double distance2;
     const Constants *constants;
     const int32_t *column;
-    const uint8_t *asleep; // NULL where nothing sleeps
+    const double *asleep; // NULL where nothing sleeps
     uint8_t *colliding;
     double *du, *dv; // velocity changes
     const double *pressure, *lxx, *lxy, *lyx, *lyy;
@@ -54,7 +54,7 @@ struct View {
     }
     // What sleeps rests, whatever it did in its last step.
     GP_INLINE bool flows(int64_t i) const {
-        return !(asleep && asleep[i]) && (!crowded || crowded[i] != does_not_flow);
+        return !(asleep && asleep[i] != 0) && (!crowded || crowded[i] != does_not_flow);
     }
     GP_INLINE bool any_flows(int64_t first, int64_t last) const {
         bool any = false;
@@ -214,7 +214,7 @@ void collide(World &world) {
                     distance * distance,
                     &world.constants,
                     p.column.data(),
-                    world.sleep.some ? p.asleep.data() : nullptr,
+                    world.sleep.some ? p.repose.asleep.data() : nullptr,
                     world.colliding.data(),
                     p.cxx.data(),
                     p.cxy.data(),

@@ -1,20 +1,28 @@
+#include <array>
 #include <cmath>
 
 #include "awake.hpp"
 #include "error.hpp"
 #include "parts.hpp"
 #include "stages/stages.hpp"
+#include "stretches.hpp"
 #include "undo.hpp"
 
 namespace gp::stages {
 
 namespace {
 
-[[noreturn]] void diverged(const World &world, int64_t i, const std::string &what) {
+// check: its number, in the order in which they are made.
+[[noreturn]] void diverged(const World &world, double check, int64_t i, const std::string &what) {
     const Particles &p = world.particles;
-    throw make_error(GP_E_DIVERGED, "%s of particle %lld at (%g, %g) m, time %g s, step %lld of %g s", what.c_str(),
-                     static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time,
-                     static_cast<long long>(world.clock.step), world.clock.dt);
+    const Error error = make_error(GP_E_DIVERGED, "%s of particle %lld at (%g, %g) m, time %g s, step %lld of %g s",
+                                   what.c_str(), static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time,
+                                   static_cast<long long>(world.clock.step), world.clock.dt);
+    if (!world.crossing)
+        throw error;
+    std::array<double, 4> key{check};
+    key_of_cell(world, i, 0, key.data() + 1);
+    throw Divergence(error, key);
 }
 
 void require_bounded_particles(const World &world, const Field<double> &ax, const Field<double> &ay, double most) {
@@ -22,16 +30,16 @@ void require_bounded_particles(const World &world, const Field<double> &ax, cons
     for (int64_t i = 0; i < p.count; ++i) {
         const double own = world.material_of(i).density;
         if (!is_bounded_density(p.density[i] / own))
-            diverged(world, i,
+            diverged(world, 0, i,
                      format_text("density: %g kg/m3, expected from 0 to below %g, %g times its material's own,",
                                  p.density[i], density_bound * own, density_bound));
     }
     for (int64_t i = 0; i < p.count; ++i)
         if (!std::isfinite(p.sxx[i]) || !std::isfinite(p.sxy[i]))
-            diverged(world, i, format_text("stress: deviator (%g, %g) Pa", p.sxx[i], p.sxy[i]));
+            diverged(world, 1, i, format_text("stress: deviator (%g, %g) Pa", p.sxx[i], p.sxy[i]));
     for (int64_t i = 0; i < p.count; ++i)
         if (!(std::hypot(ax[i], ay[i]) <= most))
-            diverged(world, i,
+            diverged(world, 2, i,
                      format_text("force: acceleration (%g, %g) m/s2, expected at most %g, a motion of %g dl in the "
                                  "step,",
                                  ax[i], ay[i], most, motion_bound));

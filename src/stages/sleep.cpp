@@ -67,12 +67,13 @@ void find_reached(World &world) {
     }
 }
 
-void begin_anew(const Particles &p, int64_t i, Repose &repose) {
-    repose.quiet_for = repose.way_x = repose.way_y = 0;
-    repose.pressure = static_cast<float>(p.pressure[i]);
-    repose.sxx = static_cast<float>(p.sxx[i]);
-    repose.sxy = static_cast<float>(p.sxy[i]);
-    repose.fluidity = p.fluidity.empty() ? 0.0f : static_cast<float>(p.fluidity[i]);
+void begin_anew(Particles &p, int64_t i) {
+    Repose &r = p.repose;
+    r.quiet_for[i] = r.way_x[i] = r.way_y[i] = 0;
+    r.pressure[i] = p.pressure[i];
+    r.sxx[i] = p.sxx[i];
+    r.sxy[i] = p.sxy[i];
+    r.fluidity[i] = p.fluidity.empty() ? 0.0 : p.fluidity[i];
 }
 
 // Brings what the particles of a span remember up to this step. Returns whether one of them has not been quiet for long enough.
@@ -80,30 +81,30 @@ bool is_restless(World &world, int64_t begin, int64_t end) {
     Particles &p = world.particles;
     const Constants &c = world.constants;
     const bool fluid = !p.fluidity.empty();
-    const auto dt = static_cast<float>(world.clock.dt), enough = static_cast<float>(quiet_time(c));
-    const auto way = static_cast<float>(quiet_way * c.spacing), fading = dt / enough;
+    const double dt = world.clock.dt, enough = quiet_time(c);
+    const double way = quiet_way * c.spacing, fading = dt / enough;
+    Repose &r = p.repose;
     double pressure = 0, change = 0, change_xx = 0, change_xy = 0, weight = 0, fluidity = 0, fluidity_before = 0;
     double momentum_x = 0, momentum_y = 0; // kg/m3 m/s
-    float shortest = enough;
+    double shortest = enough;
     for (int64_t i = begin; i < end; ++i) {
-        Repose &repose = p.repose[i];
-        repose.quiet_for += dt;
-        repose.way_x += dt * static_cast<float>(p.vx[i]) - fading * repose.way_x;
-        repose.way_y += dt * static_cast<float>(p.vy[i]) - fading * repose.way_y;
-        if (repose.way_x * repose.way_x + repose.way_y * repose.way_y > way * way)
-            begin_anew(p, i, repose);
-        shortest = std::min(shortest, repose.quiet_for);
+        r.quiet_for[i] += dt;
+        r.way_x[i] += dt * p.vx[i] - fading * r.way_x[i];
+        r.way_y[i] += dt * p.vy[i] - fading * r.way_y[i];
+        if (r.way_x[i] * r.way_x[i] + r.way_y[i] * r.way_y[i] > way * way)
+            begin_anew(p, i);
+        shortest = std::min(shortest, r.quiet_for[i]);
         pressure += p.pressure[i];
-        change += p.pressure[i] - repose.pressure;
-        change_xx += p.sxx[i] - repose.sxx;
-        change_xy += p.sxy[i] - repose.sxy;
+        change += p.pressure[i] - r.pressure[i];
+        change_xx += p.sxx[i] - r.sxx[i];
+        change_xy += p.sxy[i] - r.sxy[i];
         const double density = world.material_of(i).density;
         weight += density;
         momentum_x += density * p.vx[i];
         momentum_y += density * p.vy[i];
         if (fluid) {
             fluidity += p.fluidity[i];
-            fluidity_before += repose.fluidity;
+            fluidity_before += r.fluidity[i];
         }
     }
     const double size = std::max(1.0, full_span / static_cast<double>(end - begin));
@@ -112,7 +113,7 @@ bool is_restless(World &world, int64_t begin, int64_t end) {
     const bool grows = fluidity > (1 + quiet_growth) * fluidity_before;
     if (grows || !(blow <= 0.5 * most) || !(std::abs(change) <= most) || !(std::hypot(change_xx, change_xy) <= most)) {
         for (int64_t i = begin; i < end; ++i)
-            begin_anew(p, i, p.repose[i]);
+            begin_anew(p, i);
         return true;
     }
     return shortest < enough;
@@ -141,7 +142,7 @@ double lay_down(World &world, int64_t span) {
         kinetic += world.material_of(i).density * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i]);
         p.vx[i] = p.vy[i] = p.ax[i] = p.ay[i] = p.push_x[i] = p.push_y[i] = 0;
         p.lxx[i] = p.lxy[i] = p.lyx[i] = p.lyy[i] = 0;
-        p.asleep[i] = 1;
+        p.repose.asleep[i] = 1;
     });
     clear_exchanged(world, span);
     world.sleep.asleep[span] = 1;
@@ -176,7 +177,7 @@ void wake(World &world) {
         for (int64_t span = 0; span < s.spans; ++span)
             if (s.asleep[span] && s.reached[span]) {
                 s.asleep[span] = 0;
-                for_each_of(world, span, [&](int64_t i) { world.particles.asleep[i] = 0; });
+                for_each_of(world, span, [&](int64_t i) { world.particles.repose.asleep[i] = 0; });
                 changed = true;
             }
         if (changed)
@@ -202,9 +203,9 @@ void sleep(World &world) {
 void wake_all(World &world) {
     Sleep &s = world.sleep;
     Particles &p = world.particles;
-    for (std::size_t i = 0; i < p.repose.size(); ++i) {
-        begin_anew(p, static_cast<int64_t>(i), p.repose[i]);
-        p.asleep[i] = 0;
+    for (int64_t i = 0; i < p.count; ++i) {
+        begin_anew(p, i);
+        p.repose.asleep[i] = 0;
     }
     s.some = s.idle = s.fallen = false;
     s.stale = true;

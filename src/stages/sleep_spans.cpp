@@ -102,17 +102,16 @@ void take_over_spans(World &world, double quiet_time) {
         flags->assign(static_cast<std::size_t>(s.spans), 0);
     for (Field<uint8_t> *flags : {&s.restless, &s.stirs})
         flags->assign(static_cast<std::size_t>(s.spans + s.others), 0);
-    const auto enough = static_cast<float>(quiet_time);
     for (int64_t span = 0; span < s.spans; ++span) {
         bool asleep = true, restless = false;
         for_each_of(world, span, [&](int64_t i) {
-            asleep &= p.asleep[i] != 0;
-            restless |= p.repose[i].quiet_for < enough;
+            asleep &= p.repose.asleep[i] != 0;
+            restless |= p.repose.quiet_for[i] < quiet_time;
         });
         s.asleep[span] = asleep;
         s.restless[span] = !asleep && restless;
         if (!asleep) // new neighbours in the order may be awake
-            for_each_of(world, span, [&](int64_t i) { p.asleep[i] = 0; });
+            for_each_of(world, span, [&](int64_t i) { p.repose.asleep[i] = 0; });
         else
             clear_exchanged(world, span); // it is in the order of before
     }

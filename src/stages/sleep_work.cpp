@@ -118,7 +118,7 @@ void sum_held_loads(World &world) {
     w.clear_loads(); // of a step that has not begun with them yet
     for (std::size_t k = 0; k < w.contacts.size(); ++k) {
         const Contact &contact = w.contacts[k];
-        if (!p.asleep[contact.particle])
+        if (p.repose.asleep[contact.particle] == 0)
             continue;
         w.add_load(contact.facet, {p.x[contact.particle], p.y[contact.particle]}, {s.loads[k].x, s.loads[k].y});
         w.add_couple(s.loads[k].plate, s.loads[k].couple);
@@ -155,31 +155,31 @@ void remember_shape(World &world) {
         if (world.sleep.restless[span])
             return;
         for (int64_t i = begin; i < end; ++i) {
-            p.repose[i].gxx = p.gxx[i];
-            p.repose[i].gxy = p.gxy[i];
-            p.repose[i].gyy = p.gyy[i];
+            p.repose.gxx[i] = p.gxx[i];
+            p.repose.gxy[i] = p.gxy[i];
+            p.repose.gyy[i] = p.gyy[i];
         }
     });
 }
 
 void hold_stress(World &world) {
     Particles &p = world.particles;
+    Repose &r = p.repose;
     const bool penalty = !p.stressed.empty();
     for_each_seen_block(world, [&](int64_t span, int64_t begin, int64_t end) {
         if (world.sleep.asleep[span])
             for (int64_t i = begin; i < end; ++i) {
-                const Repose &own = p.repose[i];
                 const double xx = p.sxx[i] - p.pressure[i], xy = p.sxy[i], yy = -p.sxx[i] - p.pressure[i];
-                p.cxx[i] = xx * own.gxx + xy * own.gxy;
-                p.cxy[i] = xx * own.gxy + xy * own.gyy;
-                p.cyx[i] = xy * own.gxx + yy * own.gxy;
-                p.cyy[i] = xy * own.gxy + yy * own.gyy;
+                p.cxx[i] = xx * r.gxx[i] + xy * r.gxy[i];
+                p.cxy[i] = xx * r.gxy[i] + xy * r.gyy[i];
+                p.cyx[i] = xy * r.gxx[i] + yy * r.gxy[i];
+                p.cyy[i] = xy * r.gxy[i] + yy * r.gyy[i];
                 if (penalty)
-                    p.stressed[i] = own.stressed;
+                    p.stressed[i] = r.stressed[i];
             }
         else if (penalty && !world.sleep.restless[span])
             for (int64_t i = begin; i < end; ++i)
-                p.repose[i].stressed = p.stressed[i];
+                r.stressed[i] = p.stressed[i];
     });
 }
 

@@ -29,6 +29,38 @@ void wrap(World &world) {
         plate.wrap(period, world.clock.time);
 }
 
+// Tiles are wider than the lists reach by so much, in dl: the most that any two may have moved against each other before those
+// of tiles that are not next to each other count (shift_tiles.hpp).
+constexpr double room_of_tiles = 2;
+
+bool stands(const Plate &plate, const Plate::State &before) {
+    const Pose &now = plate.placed(), &then = before.placed;
+    return now.shift == then.shift && now.angle == then.angle;
+}
+
+// A bound on how far what may come into each other's reach has moved against each other. Particles and plates: as if all of them
+// were near each other; where a plate in reach has moved, the bound is that of any two.
+double measure_closing(World &world) {
+    double plates_near = 0; // 1: there are some
+    for (std::size_t k = 0; k < world.walls.plates.size(); ++k) {
+        const Plate &plate = world.walls.plates[k];
+        if (plate.gap > 0)
+            continue;
+        if (!stands(plate, world.list_origin.plates[k]))
+            return world.closed_in;
+        plates_near = 1;
+    }
+    ShiftTiles &tiles = world.tiles;
+    tiles.measure(world.particles, world.grid, world.list_origin.x, world.list_origin.y, world.threads);
+    if (world.crossing) {
+        std::vector<double> &all = tiles.extremes();
+        world.crossing->combine(all.data(), static_cast<int>(all.size()), nullptr, 0);
+    }
+    const ShiftTiles::Shifts shifts = tiles.shifts();
+    const double reach = world.constants.reach;
+    return std::max({shifts.near, plates_near * shifts.own, shifts.any - (tiles.width() - reach - world.skin)});
+}
+
 // Bounds of the skin in dl. The best skin weighs pairs that do nothing against rebuilds; with a rebuild as dear as a
 // few steps it grows with the root of the shift per step.
 constexpr double thinnest_skin = 0.1, thickest_skin = 0.8, skin_factor = 2.0;
@@ -59,13 +91,21 @@ void update_neighbors(World &world) {
     // Before the first step nothing has moved, at whatever speed: that may be infinite, which the first step refuses.
     const double shift = world.clock.dt > 0 ? world.velocity_span * world.clock.dt : 0.0;
     // The collisions at the end of this step read the lists too: its own shift counts beforehand.
-    if (world.lists_valid && world.shifted + shift <= world.skin && world.walls.chains_stand()) {
+    const bool stand = world.lists_valid && world.walls.chains_stand();
+    double share = 1; // of the shift of any two
+    if (stand && world.closed_in + shift > world.skin) {
+        world.closed_in = measure_closing(world);
+        if (world.closed_in < world.shifted)
+            share = world.closed_in / world.shifted;
+    }
+    if (stand && world.closed_in + shift <= world.skin) {
         if (!world.sleep.idle)
             world.walls.face_facets(world.particles);
         return;
     }
-    world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(shift / c.spacing), thinnest_skin, thickest_skin);
-    world.shifted = 0;
+    world.skin =
+        c.spacing * std::clamp(skin_factor * std::sqrt(share * shift / c.spacing), thinnest_skin, thickest_skin);
+    world.shifted = world.closed_in = 0;
     if (c.period)
         wrap(world);
     world.walls.place_plates(world.clock.time, world.clock.dt);
@@ -111,6 +151,7 @@ void make_lists(World &world) {
     }
     const Barriers &barriers = world.walls.barriers(world.particles, world.grid, radius, world.crossing);
     const auto find = [&] {
+        world.tiles.cut(world.grid, world.box, c.reach + room_of_tiles * c.spacing);
         find_clusters(world.particles, world.grid, world.images, radius, close, barriers, tolerance, world.threads,
                       world.clusters);
     };

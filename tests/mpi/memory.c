@@ -1,5 +1,6 @@
-/* What the first step, a state and a frame take of the first process's memory beyond what it holds: mpirun -n 2 memory PARTICLES
- * [FILE] prints the bytes of these. FILE: of the frame. Status 77 where the system does not tell. */
+/* What the first step, a state, a frame, a checkpoint saved and one loaded take of the first process's memory: mpirun -n 2 memory
+ * PARTICLES [FRAME CHECKPOINT] prints the bytes of these, beyond what it holds; of what is loaded all. FRAME, CHECKPOINT: files.
+ * Status 77 where the system does not tell. */
 #include <malloc.h>
 #include <math.h>
 #include <stdio.h>
@@ -67,7 +68,7 @@ int main(int argc, char **argv) {
     state.struct_size = sizeof state;
     check(gp_get_state(sim, &state));
     const double of_state = told("VmHWM:") - held;
-    double of_frame = 0;
+    double of_frame = 0, of_save = 0, of_load = 0;
     if (argc > 2) {
         gp_output output;
         check(gp_output_init(&output, sizeof output));
@@ -80,8 +81,23 @@ int main(int argc, char **argv) {
         of_frame = told("VmHWM:") - held;
         check(gp_output_close(sim));
     }
+    if (argc > 3) {
+        known = known && begin();
+        held = told("VmRSS:");
+        double seconds = MPI_Wtime();
+        check(gp_save(sim, argv[3]));
+        of_save = told("VmHWM:") - held;
+        fprintf(stderr, "rank %d: saved in %.2f s\n", rank, MPI_Wtime() - seconds);
+        gp_destroy(sim);
+        known = known && begin();
+        held = told("VmRSS:");
+        seconds = MPI_Wtime();
+        check(gp_load_mpi(argv[3], MPI_COMM_WORLD, &sim));
+        of_load = told("VmHWM:") - held;
+        fprintf(stderr, "rank %d: loaded in %.2f s\n", rank, MPI_Wtime() - seconds);
+    }
     if (rank == 0 && known)
-        printf("%.0f %.0f %.0f\n", of_start, of_state, of_frame);
+        printf("%.0f %.0f %.0f %.0f %.0f\n", of_start, of_state, of_frame, of_save, of_load);
     gp_destroy(sim);
     MPI_Finalize();
     return known ? 0 : 77;

@@ -50,11 +50,20 @@ static void build(gp_sim *sim, const char *scene) {
     check(gp_plate_init(&plate, sizeof plate));
     column.x_min = 0.01, column.width = 0.12, column.height = 0.06, column.vx = 0.3;
     check(gp_add_column(sim, &column, NULL));
-    const int periodic = !strcmp(scene, "periodic");
+    const int periodic = strcmp(scene, "gate") != 0;
     plate.x0 = periodic ? 0.16 : 1, plate.x1 = periodic ? 0 : -1;
     check(gp_add_plate(sim, &plate, NULL));
-    if (periodic)
+    if (periodic) { /* two sets of particles on top, all of them the first process's */
+        int rank;
+        double x[20], y[20], v[20];
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        for (int set = 0; set < 2; ++set) {
+            for (int k = 0; k < 20; ++k)
+                x[k] = 0.03 + 0.004 * k, y[k] = 0.063 + 0.004 * set, v[k] = 0.1 * set;
+            check(gp_add_particles(sim, 0, rank == 0 ? 20 : 0, x, y, v, v, NULL));
+        }
         return;
+    }
     /* A gate that is lifted and a lid that falls. */
     static const double t[] = {0, 0.02, 0.1}, x[] = {0, 0, 0}, y[] = {0, 0.005, 0.2};
     plate.x0 = plate.x1 = 0.13, plate.y0 = 0.2, plate.n_knots = 3, plate.knot_t = t, plate.knot_x = x, plate.knot_y = y;
@@ -84,7 +93,8 @@ static int compare(const char *a, const char *b) {
                 check(gp_copy_field(sims[k], bit, values[k], n));
             for (int64_t i = 0; i < n; ++i)
                 if (values[0][i] != values[1][i]) {
-                    printf("field 0x%x of %lld: %.17g, %.17g\n", (unsigned)bit, (long long)i, values[0][i], values[1][i]);
+                    printf("field 0x%x of %lld: %.17g, %.17g\n", (unsigned)bit, (long long)i, values[0][i],
+                           values[1][i]);
                     different = 1;
                     break;
                 }
@@ -147,10 +157,12 @@ int main(int argc, char **argv) {
             gp_config config;
             check(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
             config.spacing = 0.004, config.jitter = 0.1, config.threads = 1;
-            if (!strcmp(argv[2], "periodic"))
+            if (strcmp(argv[2], "gate") != 0 && strcmp(argv[2], "sleep") != 0)
                 config.periodic_x_max = 0.16, config.gravity_x = 4;
             if (!strcmp(argv[2], "sleep"))
                 config.sleep = 1, config.sound_speed = 12, config.jitter = 0;
+            if (!strcmp(argv[2], "implicit"))
+                config.stress = GP_STRESS_IMPLICIT;
             check(gp_create_mpi(&config, MPI_COMM_WORLD, &sim));
             build(sim, argv[2]);
         } else if (!strcmp(mode, "alone")) {

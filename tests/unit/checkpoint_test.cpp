@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -12,11 +13,13 @@
 #include "../support/directory.hpp"
 #include "granperi/gp.h"
 #include "io/checkpoint_file.hpp"
-#include "io/safe_file.hpp"
 
 namespace {
 
-using gp::io::read_file;
+std::vector<unsigned char> read_file(const std::string &path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
 
 constexpr std::size_t text_size = 512;
 

@@ -111,7 +111,7 @@ Scene tilted_scene(double angle, double mu = std::tan(std::acos(-1.0) / 180 * 21
 
 // Expects p, sxx and sxy as these multiples of the weight per area and depth.
 void expect_stress(const Scene &scene, double p, double sxx, double sxy) {
-    const std::vector<InitialStress> stress = scene.initial_stress(scene.constants());
+    const std::vector<InitialStress> stress = scene.initial_stress(scene.constants(), 0, scene.particle_count());
     for (std::size_t i = 0; i < stress.size(); ++i) {
         const double weight = rho * g * (depth - scene.y[i]);
         EXPECT_NEAR(stress[i].pressure, p * weight, 1e-9);
@@ -162,7 +162,7 @@ TEST(InitialStress, HasTheShearThatTheFloorBears) {
             expect_stress(corner, std::cos(angle), 0, std::sin(angle));
             continue;
         }
-        for (const InitialStress &s : corner.initial_stress(corner.constants()))
+        for (const InitialStress &s : corner.initial_stress(corner.constants(), 0, corner.particle_count()))
             EXPECT_EQ(s.sxy, 0);
     }
     // The same turned by a right angle: gravity presses against a wall at the right.
@@ -177,7 +177,7 @@ TEST(InitialStress, HasTheShearThatTheFloorBears) {
     std::string note;
     turned.add_column(column, note);
     add_plate(turned, depth, 1, depth, -1);
-    const std::vector<InitialStress> stress = turned.initial_stress(turned.constants());
+    const std::vector<InitialStress> stress = turned.initial_stress(turned.constants(), 0, turned.particle_count());
     for (std::size_t i = 0; i < stress.size(); ++i) {
         // The forces on the part above x: rho g x + sigma (1, 0) = 0.
         EXPECT_NEAR(stress[i].pressure, rho * 8 * turned.x[i], 1e-9);
