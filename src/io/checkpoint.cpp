@@ -81,7 +81,7 @@ void write_common(CheckpointWriter &file, const World &world) {
         t.gap.push_back(plate.gap);
     }
     exchange_motions(file, t);
-    exchange_ghosts(file, world.walls);
+    exchange_ghosts(file, world);
     PieceTable pieces;
     for (const Piece &piece : world.pieces) {
         pieces.end.push_back(piece.end);
@@ -287,9 +287,9 @@ std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, 
     else
         read_particles(file, check, scene, *world);
     read_motions(file, check, *world);
-    exchange_ghosts(file, world->walls);
-    if (world->walls.ghosts_placed)
-        world->walls.place_ghosts(world->threads);
+    exchange_ghosts(file, *world);
+    for (const auto *field : {&world->walls.ghost_x, &world->walls.ghost_y})
+        check.all_finite("ghosts", *field);
     if (world->images.in_use()) {
         world->images.copy_all(world->particles);
         if (!world->particles.syy.empty())
