@@ -213,7 +213,7 @@ void read_particles(CheckpointReader &file, const Checker &check, const Scene &s
     }
     check.permutation("id", p.id);
     for (std::size_t k = 0; k < n; ++k)
-        check.require_each(p.column[k] == scene.column[p.id[k]],
+        check.require_each(p.column[k] == scene.body_of(p.id[k]),
                            [] { return std::string("a particle is of another column"); });
     for_each_particle_array(p, [&](const char *name, const auto &field) {
         if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Field<double>>)
