@@ -26,17 +26,29 @@ double shear_rate(const Particles &p, int64_t i) {
     return shear_rate(Symmetric{p.lxx[i], 0.5 * (p.lxy[i] + p.lyx[i]), p.lyy[i]});
 }
 
-double number_density(const World &world, int64_t i) {
+// The cells are those of the last sort: what is within the radius now was within `shifted` more around where the particle was then.
+double number_density_at(const World &world, int64_t place) {
     const Particles &p = world.particles;
+    const ListOrigin &origin = world.list_origin;
     const double radius = world.constants.interaction_radius;
+    const int64_t i = world.particle_listed_at(place);
     double sum = 0;
-    // The cells are those of the last sort: particles have moved by less than `shifted` since.
-    for_each_candidate(world.grid, world.images, p.x[i], p.y[i], radius + world.shifted, [&](int64_t place) {
-        const int64_t j = world.particle_listed_at(place);
-        if (j != i)
-            sum += weight(std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]), 1.0 / radius);
-    });
+    for_each_candidate(world.grid, world.images, origin.x[place], origin.y[place], radius + world.shifted,
+                       [&](int64_t there) {
+                           const int64_t j = world.particle_listed_at(there);
+                           if (j != i)
+                               sum += weight(std::hypot(p.x[j] - p.x[i], p.y[j] - p.y[i]), 1.0 / radius);
+                       });
     return sum;
+}
+
+const double *derive_number_density(const World &world, Field<double> &out) {
+    out.resize(world.particles.count);
+    for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t place = begin; place < end; ++place)
+            out[world.particle_listed_at(place)] = number_density_at(world, place);
+    });
+    return out.data();
 }
 
 } // namespace
@@ -77,7 +89,7 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
             return derive(world, scratch, [&](int64_t i) {
                 return p.density[i] / world.material_of(i).density * world.constants.interaction_lattice.number_density;
             });
-        return derive(world, scratch, [&](int64_t i) { return number_density(world, i); });
+        return derive_number_density(world, scratch);
     case GP_FIELD_FLUIDITY:
         if (!p.fluidity.empty())
             return p.fluidity.data();

@@ -132,9 +132,15 @@ void fall_by(World &world, const Vector &gravity, const Energies &before) {
     if (world.crossing) {
         std::vector<double> x, y;
         find_farthest(world, gravity, x, y);
-        world.scene->set_fall(world.constants, gravity, x.data(), y.data(), static_cast<int64_t>(x.size()));
+        world.scene->set_fall(world.constants, gravity, [&](const auto &visit) {
+            for (std::size_t k = 0; k < x.size(); ++k)
+                visit(Vector(x[k], y[k]));
+        });
     } else {
-        world.scene->set_fall(world.constants, gravity, p.x.data(), p.y.data(), p.count);
+        world.scene->set_fall(world.constants, gravity, [&](const auto &visit) {
+            for (int64_t i = 0; i < p.count; ++i)
+                visit(Vector(p.x[i], p.y[i]));
+        });
     }
     count_from_lowest(world);
     const double potential = measure_energies(world).potential;

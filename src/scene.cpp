@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "check.hpp"
 
@@ -115,6 +116,11 @@ double hashed_uniform(uint64_t seed, uint64_t counter) {
     return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
 }
 
+// A function of its own, so that the product is rounded before it is added to something: never one operation with that.
+[[gnu::noinline]] double product(double a, double b) {
+    return a * b;
+}
+
 } // namespace
 
 Scene::Scene(const gp_config &config) : config_(config) {
@@ -169,12 +175,23 @@ int32_t Scene::add_material(const gp_material &m) {
     return static_cast<int32_t>(materials_.size()) - 1;
 }
 
-void Scene::reserve(int64_t more) {
-    const auto total = x.size() + static_cast<std::size_t>(more);
-    for (std::vector<double> *field : {&x, &y, &vx, &vy})
-        field->reserve(total);
-    column.reserve(total);
-    bodies_.reserve(bodies_.size() + 1);
+Vector Scene::position(const Body &body, int64_t id) const {
+    if (!body.rectangle)
+        return {body.set[0][id - body.first], body.set[1][id - body.first]};
+    const double spacing = config_.spacing, jitter = config_.jitter * spacing;
+    const int64_t row = (id - body.first) / body.across, across = (id - body.first) % body.across;
+    const auto counter = static_cast<uint64_t>(id);
+    const auto displacement = [&](uint64_t number) {
+        return jitter > 0 ? product(jitter, hashed_uniform(config_.seed, number)) : 0.0;
+    };
+    return {body.x_min + (static_cast<double>(across) + 0.5) * spacing + displacement(2 * counter),
+            body.y_min + product(static_cast<double>(row) + 0.5, spacing) + displacement(2 * counter + 1)};
+}
+
+int32_t Scene::body_of(int64_t id) const {
+    const auto after = std::upper_bound(bodies_.begin(), bodies_.end(), id,
+                                        [](int64_t wanted, const Body &body) { return wanted < body.first; });
+    return static_cast<int32_t>(after - bodies_.begin()) - 1;
 }
 
 int32_t Scene::add_column(const gp_column &c, std::string &note) {
@@ -218,22 +235,11 @@ int32_t Scene::add_column(const gp_column &c, std::string &note) {
     body.width = columns * spacing;
     body.height = rows * spacing;
     body.hydrostatic = c.initial_pressure == GP_INITIAL_HYDROSTATIC;
-    reserve(body.count);
-    const auto column_id = static_cast<int32_t>(bodies_.size());
-    for (int64_t row = 0; row < static_cast<int64_t>(rows); ++row)
-        for (int64_t across = 0; across < static_cast<int64_t>(columns); ++across) {
-            const auto counter = static_cast<uint64_t>(x.size());
-            const double jitter = config_.jitter * spacing;
-            const double dx = jitter > 0 ? jitter * hashed_uniform(config_.seed, 2 * counter) : 0.0;
-            const double dy = jitter > 0 ? jitter * hashed_uniform(config_.seed, 2 * counter + 1) : 0.0;
-            x.push_back(c.x_min + (static_cast<double>(across) + 0.5) * spacing + dx);
-            y.push_back(c.y_min + (static_cast<double>(row) + 0.5) * spacing + dy);
-            vx.push_back(c.vx);
-            vy.push_back(c.vy);
-            column.push_back(column_id);
-        }
-    bodies_.push_back(body);
-    return column_id;
+    body.vx = c.vx;
+    body.vy = c.vy;
+    body.across = static_cast<int64_t>(columns);
+    bodies_.push_back(std::move(body));
+    return static_cast<int32_t>(bodies_.size()) - 1;
 }
 
 void Scene::check_particles(int32_t material, int64_t n, const double *px, const double *py, const double *pvx,
@@ -270,19 +276,16 @@ int32_t Scene::add_particles(int32_t material, int64_t n, const double *px, cons
     body.material = material;
     body.first = particle_count();
     body.count = n;
-    reserve(n);
-    const auto column_id = static_cast<int32_t>(bodies_.size());
-    x.insert(x.end(), px, px + n);
-    y.insert(y.end(), py, py + n);
-    vx.resize(x.size(), 0.0);
-    vy.resize(x.size(), 0.0);
+    body.set[0].assign(px, px + n);
+    body.set[1].assign(py, py + n);
+    for (int k = 2; k < 4; ++k)
+        body.set[k].assign(static_cast<std::size_t>(n), 0.0);
     if (pvx) {
-        std::copy(pvx, pvx + n, vx.begin() + body.first);
-        std::copy(pvy, pvy + n, vy.begin() + body.first);
+        std::copy_n(pvx, n, body.set[2].begin());
+        std::copy_n(pvy, n, body.set[3].begin());
     }
-    column.resize(x.size(), column_id);
-    bodies_.push_back(body);
-    return column_id;
+    bodies_.push_back(std::move(body));
+    return static_cast<int32_t>(bodies_.size()) - 1;
 }
 
 void Scene::set_gravity(const Vector &gravity) {

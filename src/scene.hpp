@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,9 @@ struct Body {
     bool rectangle = false;       // a column: the next fields are meant
     double x_min = 0, y_min = 0, width = 0, height = 0;
     bool hydrostatic = false;
+    double vx = 0, vy = 0;
+    int64_t across = 1;         // particles of a row
+    std::vector<double> set[4]; // x, y, vx, vy of those of a set
 };
 
 struct MaterialConstants {
@@ -224,21 +228,33 @@ public:
     const std::vector<gp_material> &materials() const { return materials_; }
     const std::vector<Body> &bodies() const { return bodies_; }
     const std::vector<PlateSpec> &plates() const { return plates_; }
-    int64_t particle_count() const { return static_cast<int64_t>(x.size()); }
+    int64_t particle_count() const { return bodies_.empty() ? 0 : bodies_.back().first + bodies_.back().count; }
+
+    // Of a particle as it begins, by its id. Those of columns are laid anew whenever they are asked for: so a scene is as small with
+    // any number of them. body: its own.
+    Vector position(const Body &body, int64_t id) const;
+    Vector velocity(const Body &body, int64_t id) const {
+        if (body.rectangle)
+            return {body.vx, body.vy};
+        return {body.set[2][id - body.first], body.set[3][id - body.first]};
+    }
+    int32_t body_of(int64_t id) const;
+    // Calls visit(id, body, position) for all particles.
+    template <class Visit> void for_each_particle(const Visit &visit) const {
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+            for (int64_t id = bodies_[b].first; id < bodies_[b].first + bodies_[b].count; ++id)
+                visit(id, static_cast<int32_t>(b), position(bodies_[b], id));
+    }
 
     Constants constants() const;
-    // Gravity, and the height and speed of a fall of material that is at these places (of plates that are where they begin).
-    void set_fall(Constants &constants, const Vector &gravity, const double *px, const double *py, int64_t count) const;
+    // Gravity, and the height and speed of a fall of material that is at the places that are visited (of plates that are where they
+    // begin).
+    using Places = std::function<void(const std::function<void(const Vector &)> &visit)>;
+    void set_fall(Constants &constants, const Vector &gravity, const Places &for_each_place) const;
     // With which the particles first .. end begin (gp_column.initial_pressure).
     std::vector<InitialStress> initial_stress(const Constants &constants, int64_t first, int64_t end) const;
 
-    // Initial positions and velocities, in the order of id.
-    std::vector<double> x, y, vx, vy;
-    std::vector<int32_t> column;
-
 private:
-    void reserve(int64_t more);
-
     gp_config config_;
     std::vector<gp_material> materials_;
     std::vector<Body> bodies_;

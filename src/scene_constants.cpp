@@ -132,9 +132,15 @@ template <class Add> void add_velocities(const PlateSpec &plate, const Motion &m
 // Largest difference between any two velocities with which the scene begins or which it prescribes.
 double velocity_span(const Scene &scene) {
     Range x, y;
-    for (std::size_t i = 0; i < scene.vx.size(); ++i) {
-        x.add(scene.vx[i]);
-        y.add(scene.vy[i]);
+    for (const Body &body : scene.bodies()) {
+        for (const double value : body.set[2])
+            x.add(value);
+        for (const double value : body.set[3])
+            y.add(value);
+        if (body.rectangle) {
+            x.add(body.vx);
+            y.add(body.vy);
+        }
     }
     const auto add = [&](const Vector &v) {
         x.add(v.x());
@@ -158,16 +164,15 @@ double velocity_span(const Scene &scene) {
 
 // Height through which material can fall: from its highest point to its own lowest one or to the lowest point beneath it
 // of a plate that faces up.
-double fall_height(const Scene &scene, const Vector &gravity, const double *px, const double *py, int64_t count) {
-    if (gravity.norm() == 0 || count == 0)
+double fall_height(const Scene &scene, const Vector &gravity, const Scene::Places &for_each_place) {
+    if (gravity.norm() == 0 || scene.particle_count() == 0)
         return 0;
     const Vector up = -gravity.normalized(), across(-up.y(), up.x());
     Range height, width;
-    for (int64_t i = 0; i < count; ++i) {
-        const Vector r(px[i], py[i]);
+    for_each_place([&](const Vector &r) {
         height.add(up.dot(r));
         width.add(across.dot(r));
-    }
+    });
     const double half = 0.5 * scene.config().spacing;
     double lowest = height.low - half;
     const auto add_floor = [&](const Segment &s) {
@@ -231,9 +236,9 @@ Courant largest_courant(const gp_config &config, const Constants &c, double dens
 
 } // namespace
 
-void Scene::set_fall(Constants &c, const Vector &gravity, const double *px, const double *py, int64_t count) const {
+void Scene::set_fall(Constants &c, const Vector &gravity, const Places &for_each_place) const {
     c.gravity = gravity;
-    c.fall_height = fall_height(*this, gravity, px, py, count);
+    c.fall_height = fall_height(*this, gravity, for_each_place);
     const double span = velocity_span(*this), lightest = densities_in_use(*this).low;
     // A load p compresses the material as a column of the height p / (rho g) does.
     double load_height = 0; // m2/s2, times g
@@ -259,7 +264,8 @@ Constants Scene::constants() const {
 
     const Range densities = densities_in_use(*this);
     const double lightest = densities.low, heaviest = std::max(densities.high, 0.0);
-    set_fall(c, {config_.gravity_x, config_.gravity_y}, x.data(), y.data(), particle_count());
+    set_fall(c, {config_.gravity_x, config_.gravity_y},
+             [this](const auto &visit) { for_each_particle([&](int64_t, int32_t, const Vector &at) { visit(at); }); });
     // With a step of the host's own it stays as it was: the step may be too long for a stiffer material.
     if (!by_number_density(c.scheme) && config_.time_step == 0)
         c.impact = hardest_impact(*this);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace gp {
 
@@ -33,7 +35,7 @@ public:
         const Vector gravity(scene.config().gravity_x, scene.config().gravity_y);
         up_ = -gravity.normalized();
         across_ = Vector(-up_.y(), up_.x());
-        sort_particles();
+        find_strips();
         for_each_segment(scene, [&](int32_t plate, const Segment &segment) {
             const PlateSpec &spec = scene.plates()[plate];
             if (with_moving_plates || !may_move(spec))
@@ -46,7 +48,7 @@ public:
     struct Item {
         double strip; // number: a whole one
         double across, height;
-        int64_t particle;
+        int32_t particle, body;
     };
     // A plate that faces up, in one strip.
     struct Surface {
@@ -64,10 +66,34 @@ public:
     // Calls visit(items, end, surfaces, end) for each strip with material; items from the lowest to the highest.
     template <class Visit> void for_each(const Visit &visit) const {
         auto surface = surfaces_.begin();
-        for (auto begin = items_.begin(); begin != items_.end();) {
+        const int64_t most = std::max(most_items, scene_.particle_count() / most_passes);
+        std::vector<Item> items;
+        for (auto first = strips_.begin(); first != strips_.end();) {
+            int64_t count = 0;
+            auto next = first;
+            while (next != strips_.end() && (next == first || count + next->particles <= most))
+                count += (next++)->particles;
+            collect(first->number, (next - 1)->number, count, items);
+            visit_strips(items, surface, visit);
+            first = next;
+        }
+    }
+
+private:
+    // So many particles are sorted at a time, or that part of all that takes so many passes over them.
+    static constexpr int64_t most_items = 1 << 20, most_passes = 8;
+    struct Strip {
+        double number;
+        int64_t particles;
+    };
+
+    template <class Visit>
+    void visit_strips(const std::vector<Item> &items, std::vector<Surface>::const_iterator &surface,
+                      const Visit &visit) const {
+        for (auto begin = items.begin(); begin != items.end();) {
             const double strip = begin->strip;
             auto end = begin;
-            while (end != items_.end() && end->strip == strip)
+            while (end != items.end() && end->strip == strip)
                 ++end;
             while (surface != surfaces_.end() && surface->strip < strip)
                 ++surface;
@@ -79,24 +105,33 @@ public:
         }
     }
 
-private:
     double strip_of(double across) const { return std::floor(across / (strip_width * scene_.config().spacing)); }
 
-    void sort_particles() {
-        items_.reserve(scene_.x.size());
-        for (std::size_t i = 0; i < scene_.x.size(); ++i) {
-            const Vector r(scene_.x[i], scene_.y[i]);
+    void find_strips() {
+        std::unordered_map<double, int64_t> particles;
+        scene_.for_each_particle([&](int64_t, int32_t, const Vector &r) {
             const double across = across_.dot(r);
-            items_.push_back({strip_of(across), across, up_.dot(r), static_cast<int64_t>(i)});
+            ++particles[strip_of(across)];
             low_ = std::min(low_, across);
             high_ = std::max(high_, across);
-        }
-        std::sort(items_.begin(), items_.end(), [](const Item &a, const Item &b) {
+        });
+        for (const auto &[number, count] : particles)
+            strips_.push_back({number, count});
+        std::sort(strips_.begin(), strips_.end(), [](const Strip &a, const Strip &b) { return a.number < b.number; });
+    }
+
+    // The particles of the strips from the first to the last.
+    void collect(double first, double last, int64_t count, std::vector<Item> &items) const {
+        items.clear();
+        items.reserve(static_cast<std::size_t>(count));
+        scene_.for_each_particle([&](int64_t id, int32_t body, const Vector &r) {
+            const double across = across_.dot(r), strip = strip_of(across);
+            if (strip >= first && strip <= last)
+                items.push_back({strip, across, up_.dot(r), static_cast<int32_t>(id), body});
+        });
+        std::sort(items.begin(), items.end(), [](const Item &a, const Item &b) {
             return std::tie(a.strip, a.height, a.particle) < std::tie(b.strip, b.height, b.particle);
         });
-        for (const Item &item : items_)
-            if (strips_.empty() || strips_.back() != item.strip)
-                strips_.push_back(item.strip);
     }
 
     void add_images(int32_t plate, const Segment &segment) {
@@ -114,22 +149,18 @@ private:
         if (rise < least_rise)
             return;
         const double a = across_.dot(segment.origin), b = a + segment.length * across_.dot(segment.tangent);
-        auto strip = std::lower_bound(strips_.begin(), strips_.end(), strip_of(std::min(a, b)));
-        for (const double last = strip_of(std::max(a, b)); strip != strips_.end() && *strip <= last; ++strip)
-            surfaces_.push_back({*strip, plate, segment, rise});
+        auto strip = std::lower_bound(strips_.begin(), strips_.end(), strip_of(std::min(a, b)),
+                                      [](const Strip &one, double number) { return one.number < number; });
+        for (const double last = strip_of(std::max(a, b)); strip != strips_.end() && strip->number <= last; ++strip)
+            surfaces_.push_back({strip->number, plate, segment, rise});
     }
 
     const Scene &scene_;
     Vector up_, across_;
     double low_ = INFINITY, high_ = -INFINITY; // of the material, across
-    std::vector<Item> items_;                  // by strip, then height
-    std::vector<double> strips_;               // that have material
+    std::vector<Strip> strips_;                // that have material
     std::vector<Surface> surfaces_;            // by strip
 };
-
-Vector velocity_of(const Scene &scene, int64_t i) {
-    return {scene.vx[i], scene.vy[i]};
-}
 
 // The hardest blow by falling. Of a body that stands on something only what is between the places where it does can fall, as
 // through the opening of a hopper: the face of a column on an incline overhangs, and is held by what is behind it. Nor does
@@ -145,12 +176,12 @@ public:
         for_each_landing([&](const Strips::Item &item, const Landing &landing, double) {
             if (landing.fall > 0)
                 return;
-            Base &base = base_[scene_.column[item.particle]];
+            Base &base = base_[item.body];
             base.first = std::min(base.first, item.strip);
             base.last = std::max(base.last, item.strip);
         });
         for_each_landing([&](const Strips::Item &item, const Landing &landing, double pile) {
-            const int32_t body = scene_.column[item.particle];
+            const int32_t body = item.body;
             const Base &base = base_[body];
             const bool stands = base.first <= base.last, is_within = item.strip > base.first && item.strip < base.last;
             if (landing.fall > 0 && pile >= (least_rows - 1.5) * spacing_ && (!stands || is_within) &&
@@ -176,10 +207,10 @@ private:
             double fall = 0; // m, of the item before
             for (auto begin = item; item != end; ++item) {
                 const bool lowest = item == begin;
-                const int32_t beneath_body = lowest ? -1 : scene_.column[(item - 1)->particle];
+                const int32_t beneath_body = lowest ? -1 : (item - 1)->body;
                 const double gap = lowest ? INFINITY : item->height - (item - 1)->height - spacing_;
                 const bool stands = gap <= standing_gap * spacing_;
-                if (stands && beneath_body == scene_.column[item->particle])
+                if (stands && beneath_body == item->body)
                     continue;        // and falls with it
                 auto beneath = last; // the highest plate above the item before
                 double top = lowest ? -INFINITY : (item - 1)->height;
@@ -208,12 +239,12 @@ private:
         return item->height - base;
     }
     void meet(const Strips::Item &item, const Landing &landing) {
-        const double down = -strips_.up().dot(velocity_of(scene_, item.particle));
+        const double down = -strips_.up().dot(scene_.velocity(scene_.bodies()[item.body], item.particle));
         double speed = std::sqrt(down * down + 2 * gravity_ * landing.fall) * strips_.up().dot(landing.normal);
         if (landing.plate >= 0)
             speed += std::max(0.0, landing.normal.dot(scene_.plates()[landing.plate].motion.velocity));
         if (speed > hardest_.speed)
-            hardest_ = {speed, landing.fall, scene_.column[item.particle], landing.plate, landing.onto};
+            hardest_ = {speed, landing.fall, item.body, landing.plate, landing.onto};
     }
 
     const Scene &scene_;
@@ -235,11 +266,11 @@ std::vector<Disc> discs_of(const Scene &scene) {
         Disc disc;
         const double share = 1 / static_cast<double>(body.count);
         for (int64_t i = body.first; i < body.first + body.count; ++i) {
-            disc.centre += share * Vector(scene.x[i], scene.y[i]);
-            disc.velocity += share * velocity_of(scene, i);
+            disc.centre += share * scene.position(body, i);
+            disc.velocity += share * scene.velocity(body, i);
         }
         for (int64_t i = body.first; i < body.first + body.count; ++i)
-            disc.radius = std::max(disc.radius, (Vector(scene.x[i], scene.y[i]) - disc.centre).norm());
+            disc.radius = std::max(disc.radius, (scene.position(body, i) - disc.centre).norm());
         discs.push_back(disc);
     }
     return discs;
@@ -309,7 +340,7 @@ std::vector<double> borne_shares(const Scene &scene) {
     strips.for_each([&](auto item, auto end, auto surface, auto last) {
         int32_t body = -1, beneath = -1; // of the item before, and the other body beneath that
         for (; item != end; ++item) {
-            const int32_t own = scene.column[item->particle];
+            const int32_t own = item->body;
             if (own != body) {
                 beneath = body;
                 body = own;

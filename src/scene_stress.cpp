@@ -270,7 +270,8 @@ std::vector<InitialStress> Scene::initial_stress(const Constants &constants, int
             // The weights of both directions add up; loads from two sides are one pressure. But what the friction of its floor
             // holds does not press on the wall at its lower end: a layer of 1 cm on 20 degrees between walls .4 m apart began
             // under the pressure of .14 m, which let go at its surface, and slid by .6 to 7.6 mm before it bore its weight.
-            Burden v = vertical.pressure(b, {x[i], y[i]}), a = across.pressure(b, {x[i], y[i]});
+            const Vector at = position(bodies_[b], i);
+            Burden v = vertical.pressure(b, at), a = across.pressure(b, at);
             if (constants.scheme == Scheme::adjoint && vertical.holds(b, v))
                 a = {};
             else if (constants.scheme == Scheme::adjoint && across.holds(b, a))

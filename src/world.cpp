@@ -49,14 +49,19 @@ void begin_particles(World &world, int64_t first) {
     const Constants &c = world.constants;
     Particles &p = world.particles;
     const std::vector<InitialStress> stress = scene.initial_stress(c, first, first + p.count);
+    int32_t b = scene.body_of(first);
     for (int64_t i = 0; i < p.count; ++i) {
         const int64_t id = first + i;
+        while (id >= scene.bodies()[b].first + scene.bodies()[b].count)
+            ++b;
+        const Body &body = scene.bodies()[b];
+        const Vector at = scene.position(body, id), velocity = scene.velocity(body, id);
         p.id[i] = id;
-        p.column[i] = scene.column[id];
-        p.x[i] = scene.x[id];
-        p.y[i] = scene.y[id];
-        p.vx[i] = scene.vx[id];
-        p.vy[i] = scene.vy[id];
+        p.column[i] = b;
+        p.x[i] = at.x();
+        p.y[i] = at.y();
+        p.vx[i] = velocity.x();
+        p.vy[i] = velocity.y();
         p.pressure[i] = stress[i].pressure;
         p.sxx[i] = stress[i].sxx;
         p.sxy[i] = stress[i].sxy;

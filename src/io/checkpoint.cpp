@@ -82,7 +82,7 @@ void write_common(CheckpointWriter &file, const World &world) {
         t.gap.push_back(plate.gap);
     }
     exchange_motions(file, t);
-    exchange_ghosts(file, world.walls);
+    exchange_ghosts(file, world);
     PieceTable pieces;
     for (const Piece &piece : world.pieces) {
         pieces.end.push_back(piece.end);
@@ -218,7 +218,7 @@ void read_particles(CheckpointReader &file, const Checker &check, const Scene &s
     }
     check.permutation("id", p.id);
     for (std::size_t k = 0; k < n; ++k)
-        check.require_each(p.column[k] == scene.column[p.id[k]],
+        check.require_each(p.column[k] == scene.body_of(p.id[k]),
                            [] { return std::string("a particle is of another column"); });
     for_each_particle_array(p, [&](const char *name, const auto &field) {
         if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Field<double>>)
@@ -290,9 +290,9 @@ std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, 
     else
         read_particles(file, check, scene, *world);
     read_motions(file, check, *world);
-    exchange_ghosts(file, world->walls);
-    if (world->walls.ghosts_placed)
-        world->walls.place_ghosts(world->threads);
+    exchange_ghosts(file, *world);
+    for (const auto *field : {&world->walls.ghost_x, &world->walls.ghost_y})
+        check.all_finite("ghosts", *field);
     if (world->images.in_use()) {
         world->images.copy_all(world->particles);
         if (!world->particles.syy.empty())

@@ -274,10 +274,17 @@ template <class File, class Table> void exchange_motions(File &file, Table &t) {
     file.array("gap", t.gap);
 }
 
-// Which ghosts there are follows from the lists, and where they are from their plates: as these were then, or are now.
-template <class File, class W> void exchange_ghosts(File &file, W &walls) {
+// Which ghosts there are follows from the lists, and where they are from their plates: as these were then, or are now. But in the
+// schemes by number density ghosts go ahead of their plates, and stay so when these stop.
+template <class File, class W> void exchange_ghosts(File &file, W &world) {
     file.group("/ghosts");
-    file.value("placed", walls.ghosts_placed);
+    file.value("placed", world.walls.ghosts_placed);
+    if constexpr (File::reads)
+        if (world.walls.ghosts_placed)
+            world.walls.place_ghosts(world.threads);
+    const auto size = static_cast<std::size_t>(by_number_density(world.constants.scheme) ? world.walls.ghost_count : 0);
+    file.array("x", world.walls.ghost_x, size);
+    file.array("y", world.walls.ghost_y, size);
 }
 
 struct PieceTable {

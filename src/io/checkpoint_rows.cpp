@@ -163,7 +163,7 @@ void read_places(const Stretch &stretch, const Checker &check, World &part) {
         const auto id = static_cast<long long>(p.id[i]);
         check.require_each(id >= 0 && id < stretch.all(),
                            [&] { return format_text("id: %lld, expected each once", id); });
-        check.require_each(p.column[i] == part.scene->column[id],
+        check.require_each(p.column[i] == part.scene->body_of(id),
                            [] { return std::string("a particle is of another column"); });
     }
     for_each_listed_array(

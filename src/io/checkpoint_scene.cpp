@@ -54,17 +54,16 @@ void write_bodies(CheckpointWriter &file, const Scene &scene) {
         bodies.y_min.push_back(b.y_min);
         bodies.width.push_back(b.width);
         bodies.height.push_back(b.height);
-        bodies.column_vx.push_back(b.rectangle ? scene.vx[b.first] : 0.0);
-        bodies.column_vy.push_back(b.rectangle ? scene.vy[b.first] : 0.0);
+        bodies.column_vx.push_back(b.vx);
+        bodies.column_vy.push_back(b.vy);
         particles += b.rectangle ? 0 : static_cast<std::size_t>(b.count);
     }
     exchange_bodies(file, bodies);
-    const std::vector<double> *values[] = {&scene.x, &scene.y, &scene.vx, &scene.vy};
-    for (std::size_t k = 0; k < std::size(values); ++k) {
+    for (std::size_t k = 0; k < std::size(set_arrays); ++k) {
         CheckpointWriter::Growing array = file.begin_array<double>(set_arrays[k], particles);
         for (const Body &b : scene.bodies())
             if (!b.rectangle)
-                file.append(array, values[k]->data() + b.first, static_cast<std::size_t>(b.count));
+                file.append(array, b.set[k].data(), b.set[k].size());
     }
 }
 

@@ -1,0 +1,28 @@
+// GP_FIELD_NUMBER_DENSITY, which is summed over the cells of the last sort, where all moves together.
+#include <algorithm>
+
+#include "../support/scene.hpp"
+
+using namespace test;
+
+TEST(NumberDensity, IsThatOfTheLatticeWhileAllFalls) {
+    for (const bool periodic : {false, true}) {
+        gp_config c = config(0.01);
+        if (periodic) {
+            c.periodic_x_min = 0;
+            c.periodic_x_max = 0.2;
+            c.gravity_x = 5;
+        }
+        Sim sim(c);
+        sim.column(0, 0, 0.2, 0.2, sim.material(0.38, 0.62));
+        const std::vector<double> before = sim.field(GP_FIELD_NUMBER_DENSITY);
+        EXPECT_GT(*std::min_element(before.begin(), before.end()), 0) << periodic;
+        // A part of its fall by 100 spacings nothing moves against anything: the lists are those of the start.
+        for (const double time : {0.05, 0.2, 0.45}) {
+            sim.run(time);
+            const std::vector<double> now = sim.field(GP_FIELD_NUMBER_DENSITY);
+            for (std::size_t i = 0; i < now.size(); ++i)
+                ASSERT_NEAR(now[i], before[i], 1e-9) << periodic << " " << time << " " << i;
+        }
+    }
+}
