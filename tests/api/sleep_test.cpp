@@ -106,7 +106,7 @@ TEST(SleepChoice, AStepTakenBack) {
     c.sound_speed = 10;
     Sim sim(c);
     fill(sim);
-    // Between two plates that are to close up; higher, so that it has a block of the work for itself.
+    // Between two plates that are to close up; higher, so that its spans are its own.
     sim.column(1, 1, 0.04, 0.04);
     sim.add(floor_at(1, 0.9, 1.2));
     sim.add(plate(1, 1, 1, 1.2, GP_WALL_FREE_SLIP));

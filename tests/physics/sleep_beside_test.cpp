@@ -87,8 +87,8 @@ TEST(SleepBeside, SideWallsHoldWhatSleeps) {
     EXPECT_NEAR(end[1].energy_error, end[0].energy_error, 1e-4 * Collapse::energy);
 }
 
-// Particles are sorted from left to right, so that the blocks of a mirrored scene are others, and others fall asleep first; what
-// comes of it is the same.
+// Particles are sorted from left to right, so that the sums of a mirrored scene are added up in another order; what comes of it is
+// the same.
 TEST(SleepBeside, AMirroredSceneIsMirrored) {
     gp_state end[2];
     double floor[2], wall[2];
@@ -118,7 +118,7 @@ TEST(SleepBeside, AMirroredSceneIsMirrored) {
         floor[mirrored] = sim.load(0).fy;
         wall[mirrored] = sign * sim.load(1).fx;
     }
-    // Rounding has grown to 1e-5 of the width when the first block sleeps.
+    // Rounding has grown to 1e-5 of the width when the first span sleeps.
     const double width = end[0].x_right - end[0].x_left;
     EXPECT_NEAR(end[1].centre_x, -end[0].centre_x, 1e-4 * width);
     EXPECT_NEAR(end[1].peak_height, end[0].peak_height, 1e-3 * width);

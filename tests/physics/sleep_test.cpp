@@ -87,7 +87,7 @@ TEST(Sleep, PlatesGoOnBearing) {
     }
 }
 
-// A block that falls on a bed that sleeps: of 64 particles, so that it has a block of the work for itself.
+// A block that falls on a bed that sleeps: of 64 particles, in spans for itself.
 TEST(Sleep, ABlowWakesABed) {
     constexpr double dl = Box::dl;
     gp_state end[2];
@@ -234,7 +234,7 @@ TEST(Sleep, NotWithoutGravity) {
 namespace {
 
 // A layer without ends under a lid that presses lightly and is drawn along: the upper rows are sheared for ever, below, where
-// the weight has made the pressure larger than the shear stress needs, it sleeps. Two rows of 32 are a block of the work.
+// the weight has made the pressure larger than the shear stress needs, it sleeps. Two rows of 16 columns are a span.
 struct PartlyAsleep {
     static constexpr double dl = 0.005, width = 32 * dl, height = 24 * dl;
     explicit PartlyAsleep(int32_t sleep, int threads = 1, double amplitude = 0)
