@@ -224,7 +224,7 @@ std::vector<std::string> scene_mistakes(const World &world) {
         return texts;
     }
     tell_sides(world, texts);
-    tell_unborne(*world.scene, texts);
+    on_first(world, [&] { tell_unborne(*world.scene, texts); }); // who gives the texts
     tell_coarse_fluidity(*world.scene, texts);
     return texts;
 }

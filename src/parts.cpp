@@ -188,7 +188,10 @@ void require_partable(const Scene &scene) {
 }
 
 std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing) {
-    auto part = make_bare_world(scene, scene.constants(), 1); // fields in use have a size
+    Impact impact;
+    run_on_first(crossing, [&] { impact = scene.impact(); });
+    tell_all(&crossing, &impact);
+    auto part = make_bare_world(scene, scene.constants(impact), 1); // fields in use have a size
     part->crossing = &crossing;
     part->halo = std::make_unique<Halo>(crossing);
     part->mass = mass_of_all(*part);

@@ -246,7 +246,10 @@ public:
                 visit(id, static_cast<int32_t>(b), position(bodies_[b], id));
     }
 
-    Constants constants() const;
+    Constants constants() const { return constants(impact()); }
+    // With the impact known: to find it takes a look at all particles.
+    Constants constants(const Impact &impact) const;
+    Impact impact() const;
     // Gravity, and the height and speed of a fall of material that is at the places that are visited (of plates that are where they
     // begin).
     using Places = std::function<void(const std::function<void(const Vector &)> &visit)>;

@@ -248,7 +248,12 @@ void Scene::set_fall(Constants &c, const Vector &gravity, const Places &for_each
     c.flow_speed = std::sqrt(2 * (gravity.norm() * c.fall_height + load_height) + span * span);
 }
 
-Constants Scene::constants() const {
+// With a step of the host's own, the sound speed stays as it was: the step may be too long for a stiffer material.
+Impact Scene::impact() const {
+    return by_number_density(scheme_of(config_)) || config_.time_step != 0 ? Impact() : hardest_impact(*this);
+}
+
+Constants Scene::constants(const Impact &impact) const {
     Constants c;
     c.spacing = config_.spacing;
     c.volume = c.spacing * c.spacing;
@@ -266,9 +271,7 @@ Constants Scene::constants() const {
     const double lightest = densities.low, heaviest = std::max(densities.high, 0.0);
     set_fall(c, {config_.gravity_x, config_.gravity_y},
              [this](const auto &visit) { for_each_particle([&](int64_t, int32_t, const Vector &at) { visit(at); }); });
-    // With a step of the host's own it stays as it was: the step may be too long for a stiffer material.
-    if (!by_number_density(c.scheme) && config_.time_step == 0)
-        c.impact = hardest_impact(*this);
+    c.impact = impact;
     const double of_flow = sound_to_flow_speed * c.flow_speed, of_impact = c.impact.speed / most_blow;
     c.sound_speed_is_arbitrary = config_.sound_speed == 0 && c.flow_speed == 0;
     c.sound_speed_is_of_impact = config_.sound_speed == 0 && of_impact > of_flow;

@@ -36,6 +36,8 @@ public:
         up_ = -gravity.normalized();
         across_ = Vector(-up_.y(), up_.x());
         find_strips();
+        if (scene.particle_count() <= most_items)
+            collect(-INFINITY, INFINITY, scene.particle_count(), all_);
         for_each_segment(scene, [&](int32_t plate, const Segment &segment) {
             const PlateSpec &spec = scene.plates()[plate];
             if (with_moving_plates || !may_move(spec))
@@ -66,6 +68,10 @@ public:
     // Calls visit(items, end, surfaces, end) for each strip with material; items from the lowest to the highest.
     template <class Visit> void for_each(const Visit &visit) const {
         auto surface = surfaces_.begin();
+        if (!all_.empty()) {
+            visit_strips(all_, surface, visit);
+            return;
+        }
         const int64_t most = std::max(most_items, scene_.particle_count() / most_passes);
         std::vector<Item> items;
         for (auto first = strips_.begin(); first != strips_.end();) {
@@ -159,6 +165,7 @@ private:
     Vector up_, across_;
     double low_ = INFINITY, high_ = -INFINITY; // of the material, across
     std::vector<Strip> strips_;                // that have material
+    std::vector<Item> all_;                    // of no more than are sorted at a time
     std::vector<Surface> surfaces_;            // by strip
 };
 

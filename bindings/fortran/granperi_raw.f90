@@ -913,13 +913,13 @@ module granperi_raw
         !> inside the callback, where the step is complete. The file is written beside its place as
         !> <path>.part-<process>-<number>, synced and renamed: whatever happens, path is the new checkpoint or the one
         !> before. A program that is killed may leave the part, to be deleted. After GP_E_IO (disk full, no such
-        !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. Memory:
-        !> about twice the size of the file, 200 to 300 bytes per particle. gp_load refuses a file that is cut off,
-        !> damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another format, as those of 0.1 are:
-        !> GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it; another one
-        !> may load it, if it has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build
-        !> without HDF5. C has one name space for types and functions, and gp_load is also the type above: hence a macro
-        !> over the function gp_load_file (binaries also export it as gp_load).
+        !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. The file
+        !> has about 125 bytes per particle, and 32 more for those of gp_add_particles; it takes no memory to speak of.
+        !> gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one
+        !> in another format, as those of 0.1 are: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of
+        !> the library that wrote it; another one may load it, if it has the format, but with other bits from there on.
+        !> Both are GP_E_UNSUPPORTED in a build without HDF5. C has one name space for types and functions, and gp_load
+        !> is also the type above: hence a macro over the function gp_load_file (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim

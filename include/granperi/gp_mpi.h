@@ -9,18 +9,18 @@
  *   gp_set_log         messages come on the first process; those about a running flow (gp_set_log) do not come;
  *   callbacks          are called on each process, and have to return the same everywhere.
  * States, loads, surfaces and interfaces are those of the whole, on every process; for them and for frames the first process needs
- * about 120 bytes for each particle of the whole. At the first step, or the first reading before it, for gp_save and gp_load_mpi it
- * puts the whole together, with about 600, and keeps it until the next step. gp_set_gravity passes all particles to it twice, as
- * two states do. Files are written by the first process, in the layout of a process alone: either goes on from the other's, on any
- * number of processes.
+ * about 100 bytes for each particle of the whole. No process ever has all particles: each lays its part of the columns (those of
+ * gp_add_particles every process keeps as they were added, 32 bytes each) and reads its part of a checkpoint; for gp_save they come
+ * to the first process some at a time. gp_set_gravity passes all particles to it twice, as two states do. Files are written by the
+ * first process, in the layout of a process alone: either goes on from the other's, on any number of processes.
  *
  * Positions, velocities, stresses, loads and the clock are the same bits on any number of processes and threads; the energies
  * of gp_state that are summed up in the course of a run are the same but for rounding.
  *
  * Errors come everywhere in the same call, with one status and one text. That of one process alone, out of memory for instance, is
  * named, "rank 2: out of memory"; it is the end of this simulation, whose later calls say the same, but not of the program: others
- * can be made. Work that the first process does alone for all, in gp_save, frames, states, surfaces, gp_set_gravity and the start,
- * is an exception: what it meets there ends the call, and leaves the simulation as it was; gp_step(sim, 0) says which it is. In the
+ * can be made. Work that the first process does alone for all, in gp_save, frames, states, surfaces and gp_set_gravity, is an
+ * exception: what it meets there ends the call, and leaves the simulation as it was; gp_step(sim, 0) says which it is. In the
  * middle of a step any error but GP_E_DIVERGED is the end. The calls that only read what is here (gp_get_particles,
  * gp_get_plate_load, gp_get_plan, gp_get_clock) fail here alone, and do no harm; before the first step all but gp_get_clock are
  * made by all, as the others. gp_set_callback, gp_set_log and gp_get_clock are possible after the end. Memory that MPI or Zoltan

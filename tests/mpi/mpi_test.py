@@ -82,6 +82,9 @@ class Tests:
             self.must(3, program, "go_on", "b.h5", 0, "three.h5")
             one, three = ((self.folder / name).read_bytes() for name in ("one.h5", "three.h5"))
             self.check(one == three, f"{scene}: the same file by one and by three")
+        for ranks in 2, 4:
+            result = self.run(ranks, program, "warnings")
+            self.check(result.returncode == 0, f"the warnings of a scene by {ranks}", result)
 
     def program(self):
         """granperi-mpi: what it writes, what it says."""

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene.hpp"
+#include "scene_falls.hpp"
 
 using namespace gp;
 
@@ -126,6 +127,31 @@ void expect_stress(const Scene &scene, double p, double sxx, double sxy) {
 }
 
 } // namespace
+
+// A part of the particles is sorted at a time: what stands and what falls are in different ones.
+TEST(Impact, IsFoundAmongMoreParticlesThanAreSortedAtATime) {
+    gp_config config = default_config(GP_PRESET_DEFAULT);
+    config.spacing = 0.001;
+    config.jitter = 0.1;
+    Scene scene(config);
+    std::string note;
+    gp_column column = default_column();
+    column.width = 3;
+    column.height = 0.3;
+    scene.add_column(column, note);
+    column.x_min = 3.1;
+    column.y_min = 0.5;
+    column.width = 0.7;
+    scene.add_column(column, note);
+    add_plate(scene, 5, 0, -1, 0);
+    ASSERT_GT(scene.particle_count(), 1 << 20);
+    const Impact impact = scene.impact();
+    EXPECT_EQ(impact.body, 1);
+    EXPECT_EQ(impact.plate, 0);
+    EXPECT_NEAR(impact.fall, 0.5, config.jitter * config.spacing);
+    EXPECT_NEAR(impact.speed, std::sqrt(2 * 9.81 * impact.fall), 1e-9);
+    EXPECT_EQ(borne_shares(scene), std::vector<double>(2, 1.0));
+}
 
 TEST(InitialStress, BalancesTheWeightWhereAPlateBearsIt) {
     Scene borne = column_scene(0);
