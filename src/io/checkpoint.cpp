@@ -204,22 +204,33 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
 void read_particles(CheckpointReader &file, const Checker &check, const Scene &scene, World &w) {
     Particles &p = w.particles;
     const std::size_t n = static_cast<std::size_t>(p.count);
+    Field<int64_t> id(n);
+    Field<int32_t> column(n), listed;
+    file.array("id", id, n);
+    file.array("column", column, n);
+    file.array("listed", listed);
+    check.permutation("id", id);
+    for (std::size_t k = 0; k < n; ++k)
+        check.require_each(column[k] == scene.body_of(id[k]),
+                           [] { return std::string("a particle is of another column"); });
+    if (!listed.empty()) {
+        check.same_size("listed", listed, n);
+        check.permutation("listed", listed);
+    }
+    // Particles of one cell are listed in the order of their ids, and images have the columns of their sources.
+    for (std::size_t place = 0; place < n; ++place) {
+        const std::size_t k = listed.empty() ? place : static_cast<std::size_t>(listed[place]);
+        p.id[place] = id[k];
+        p.column[place] = column[k];
+    }
     for_each_listed_array(p.x, p.y, [&](const char *name, Field<double> &field) { file.array(name, field, n); });
     check_list_positions(check, w, p.count);
     stages::make_lists(w);
     for (std::size_t k = 0; k < n; ++k)
         check.require_each(w.grid.order()[k] == static_cast<int32_t>(k),
                            [] { return std::string("lists: the particles are not in their order"); });
-    file.array("listed", w.listed);
+    w.listed = std::move(listed);
     exchange_particles(file, w);
-    if (!w.listed.empty()) {
-        check.same_size("listed", w.listed, n);
-        check.permutation("listed", w.listed);
-    }
-    check.permutation("id", p.id);
-    for (std::size_t k = 0; k < n; ++k)
-        check.require_each(p.column[k] == scene.body_of(p.id[k]),
-                           [] { return std::string("a particle is of another column"); });
     for_each_particle_array(p, [&](const char *name, const auto &field) {
         if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Field<double>>)
             check_numbers(check, w, name, p.column.data(), field.data(), field.empty() ? 0 : n);
@@ -275,6 +286,12 @@ void read_pieces(CheckpointReader &file, const Checker &check, World &w) {
 // Of several processes the part of each.
 std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, const Sim &sim) {
     const Scene &scene = sim.scene();
+    // As many as there are to be: before there is memory for them.
+    file.group("/particles");
+    const std::size_t particles = file.size_of<int64_t>("id");
+    check.require(particles == static_cast<std::size_t>(scene.particle_count()),
+                  format_text("particles/id: %zu values, expected %lld", particles,
+                              static_cast<long long>(scene.particle_count())));
     std::unique_ptr<World> world;
     if (sim.crossing()) {
         world = make_part(scene, *sim.crossing());

@@ -106,6 +106,8 @@ public:
 
 private:
     template <class T> void require_all(const Checker &check, const char *name, bool in_use) const {
+        if (all_ == 0) // a process alone writes what has no values for not in use
+            return;
         const std::size_t size = file_.size_of<T>(name), expected = in_use ? static_cast<std::size_t>(all_) : 0;
         check.require(size == expected, format_text("%s: %zu values, expected %zu", name, size, expected));
     }

@@ -8,9 +8,13 @@
 namespace gp::stages {
 
 void clear_exchanged(World &world, int64_t span) {
+    // What is kept of the step before grows with the particles only when it is kept anew: with zeros.
     const auto clear = [&](Field<double> &field) {
-        if (!field.empty())
-            for_each_of(world, span, [&](int64_t i) { field[i] = 0; });
+        const auto size = static_cast<int64_t>(field.size());
+        for_each_of(world, span, [&](int64_t i) {
+            if (i < size)
+                field[i] = 0;
+        });
     };
     for (Field<double> &field : world.step_start.made)
         clear(field);

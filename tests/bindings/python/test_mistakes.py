@@ -113,8 +113,6 @@ MISTAKES = [
     (lambda: block().particles("sped"), "field 'sped' does not exist: did you mean 'speed'?"),
     (lambda: Plate.wall(0, 0, 1, "up"), "material = 'up': expected 'left' or 'right'"),
     (lambda: granperi.settings("medium", 0.05), "name = 'medium': Valid: draft, standard, fine"),
-    (lambda: granperi.settings("draft", 0.05, 4.0), "processes = 4.0: expected a whole number"),
-    (lambda: granperi.settings("draft", 0.05, 0), "processes = 0: expected 1 or more, or None for a run without MPI"),
     # numbers
     (lambda: Simulation(spacing=-0.01), "gp_config.spacing = -0.01: expected a number from"),
     (lambda: Simulation(spacing=2.5).add_column(width=0.08, height=0.05),  # in mm
