@@ -9,7 +9,8 @@
 //   byte 512   HDF5: groups with numbers as attributes and arrays as one-dimensional datasets
 //
 // The text has this form in every format, so that damage can be told from a newer version. HDF5 reads nothing before the checksum
-// has been found right: by the first of several processes, which read the same file. Nothing of the file is held in memory: what writes and reads arrays some values at a time needs no more.
+// has been found right: by the first of several processes, which read the same file. Nothing of the file is held in memory: what
+// writes and reads arrays some values at a time needs no more.
 #pragma once
 
 #include <cstdint>
