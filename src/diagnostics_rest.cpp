@@ -9,7 +9,8 @@ namespace gp {
 namespace {
 
 constexpr double rest_kinetic = 1e-6, rest_plastic = 1e-4, rest_unbalanced = 0.01;
-// Grains at the tips may tremble for ever, kicked to and fro within a step. Below 200 particles two are more than 1 %.
+// Grains without stress, at the tips, count as flowing, and may go on pushing each other; the bulk does not. Below 200 particles
+// two are more than 1 %.
 constexpr double trembling_particles = 2, rest_unbalanced_few = 0.05;
 constexpr double plate_unbalanced = 0.05; // of a plate's load, that the material does not bear
 

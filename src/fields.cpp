@@ -26,14 +26,14 @@ double shear_rate(const Particles &p, int64_t i) {
     return shear_rate(Symmetric{p.lxx[i], 0.5 * (p.lxy[i] + p.lyx[i]), p.lyy[i]});
 }
 
-// The cells are those of the last sort: what is within the radius now was within `shifted` more around where the particle was then.
+// The cells are those of the last sort, around where the particle was then.
 double number_density_at(const World &world, int64_t place) {
     const Particles &p = world.particles;
     const ListOrigin &origin = world.list_origin;
     const double radius = world.constants.interaction_radius;
     const int64_t i = world.particle_listed_at(place);
     double sum = 0;
-    for_each_candidate(world.grid, world.images, origin.x[place], origin.y[place], radius + world.shifted,
+    for_each_candidate(world.grid, world.images, origin.x[place], origin.y[place], world.radius_then(radius),
                        [&](int64_t there) {
                            const int64_t j = world.particle_listed_at(there);
                            if (j != i)

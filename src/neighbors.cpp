@@ -95,6 +95,11 @@ int64_t CellGrid::run_begin(int64_t cell) const {
     return std::lower_bound(key_.begin(), key_.end(), cell) - key_.begin();
 }
 
+int64_t CellGrid::row_found_from(int64_t row) const {
+    const int64_t next = run_begin((row - first_row_) * columns_);
+    return next < count_ ? first_row_ + key_[next] / columns_ : last_row() + 1;
+}
+
 int64_t CellGrid::bytes() const {
     return static_cast<int64_t>((start_.capacity() + order_.capacity()) * sizeof(int32_t) +
                                 (key_.capacity() + unsorted_.capacity()) * sizeof(int64_t));

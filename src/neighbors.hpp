@@ -98,6 +98,11 @@ public:
     int64_t first_column() const { return first_column_; }
     int64_t first_row() const { return first_row_; }
     int64_t last_row() const { return first_row_ + rows_ - 1; }
+    // The first row from this one on that may have particles; beyond the last one where none has. In a search empty ones are left
+    // out: a grain that has flown a million metres leaves ten million of them.
+    int64_t row_from(int64_t row) const {
+        return start_.empty() && row > first_row_ && row <= last_row() ? row_found_from(row) : row;
+    }
 
     // Calls body(begin, end) for the run of particles in a row's columns left .. right.
     template <class Body> void run(int64_t row, int64_t left, int64_t right, const Body &body) const {
@@ -125,6 +130,7 @@ public:
 
 private:
     int64_t run_begin(int64_t cell) const; // first particle whose cell is not before this one
+    int64_t row_found_from(int64_t row) const;
     void put_in_order(const int64_t *id, const Field<double> &cell_of);
     void put_in_order_by_search(const int64_t *id);
     bool is_dense(int64_t n) const {

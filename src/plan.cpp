@@ -111,9 +111,10 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads pressure; writes velocity, position
         {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",
          t.particles ? no_side_walls : no_particles, stages::side_wall_friction, awake, all_sleep},
-        // reads position; writes velocity, position
-        {"collide", t.particles && t.collisions, "collision_distance > 0", "collision_distance is 0",
-         stages::collide, awake, all_sleep},
+        // reads position, velocity, what flows and is crowded; writes velocity, position
+        {"collide", t.particles && t.collisions,
+         by_number_density(t.scheme) ? "collision_distance > 0" : "collision_distance > 0; what flows collides",
+         "collision_distance is 0", stages::collide, awake, all_sleep},
         {"wall_contact", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_contact, awake_near, no_work},
         // reads velocity, stress; writes who rests, and the velocity of what falls asleep
@@ -268,7 +269,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     entries.push_back(field_entry("crowded", t.collisions && !viscous,
                                   !t.collisions ? "collision_distance is 0"
                                   : viscous     ? by_number
-                                                : "crowded pairs are moved apart, not braked, by collisions",
+                                            : "collisions are of what flows; crowded pairs are moved apart, not braked",
                                   bytes_of(world.crowded)));
     int64_t kept = 0;
     for (const Field<double> &field : world.step_start.copied)
@@ -281,7 +282,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("clusters", world.clusters.bytes());
     optional("neighbor_lists", t.scheme != Scheme::adjoint, "operators on single particles",
              "the default scheme's operators work on clusters", world.neighbors.bytes());
-    common("list_origin", world.list_origin.bytes());
+    common("list_origin", world.list_origin.bytes() + world.tiles.bytes());
     entries.push_back(field_entry("images", t.particles && t.periodic,
                                   t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
                                   world.images.bytes()));

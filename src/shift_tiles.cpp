@@ -6,12 +6,13 @@ namespace gp {
 
 namespace {
 
-// Larger scenes have wider tiles: what is made by one thread, and told to other processes, stays small.
-constexpr int64_t most_tiles = 4096;
+// Larger scenes have wider tiles: what is made by one thread, and told to other processes, stays small. So have those with
+// less than a particle in a tile, where single grains have flown far: material has some twenty or more.
+constexpr int64_t few_tiles = 64, most_tiles = 4096;
 
 } // namespace
 
-void ShiftTiles::cut(const CellGrid &grid, const Box &box, double least) {
+void ShiftTiles::cut(const CellGrid &grid, const Box &box, int64_t particles, double least) {
     const CellFrame &frame = grid.frame();
     closed_ = frame.columns() > 0;
     first_column_ = closed_ ? 0 : frame.column_of(box.x_min);
@@ -23,10 +24,11 @@ void ShiftTiles::cut(const CellGrid &grid, const Box &box, double least) {
     high_ = static_cast<int64_t>(std::ceil(least / frame.height()));
     // The last ones take what is left over, so that none is narrower.
     const auto count = [](int64_t cells, int64_t of_tile) { return std::max<int64_t>(1, cells / of_tile); };
+    const int64_t most = std::clamp(particles, few_tiles, most_tiles);
     for (;; wide_ *= 2, high_ *= 2) {
         columns_ = count(across, wide_);
         rows_ = count(upward, high_);
-        if (static_cast<double>(columns_) * static_cast<double>(rows_) <= most_tiles)
+        if (static_cast<double>(columns_) * static_cast<double>(rows_) <= static_cast<double>(most))
             break;
     }
     width_ = std::min(static_cast<double>(wide_) * frame.width(), static_cast<double>(high_) * frame.height());
@@ -46,7 +48,8 @@ void ShiftTiles::measure(const Particles &p, const CellGrid &grid, const Field<d
             const int64_t top = row + 1 < rows_ ? bottom + high_ - 1 : last_row_;
             Range range;
             if (grid.count() > 0)
-                for (int64_t k = std::max(bottom, grid.first_row()); k <= std::min(top, grid.last_row()); ++k)
+                for (int64_t k = grid.row_from(std::max(bottom, grid.first_row())); k <= std::min(top, grid.last_row());
+                     k = grid.row_from(k + 1))
                     grid.run(k, left, right, [&](int64_t from, int64_t to) {
                         for (int64_t i = from; i < to; ++i) {
                             const double dx = p.x[i] - x[i], dy = p.y[i] - y[i];

@@ -16,8 +16,8 @@ namespace gp {
 
 class ShiftTiles {
 public:
-    // Tiles over all particles' cells, with sides of `least` or more. box: of all particles; grid: of those that are here.
-    void cut(const CellGrid &grid, const Box &box, double least);
+    // Tiles over all particles' cells, with sides of `least` or more. box, count: of all particles; grid: of those that are here.
+    void cut(const CellGrid &grid, const Box &box, int64_t count, double least);
 
     // The ranges of motion of the particles that are here, sorted as they were when the lists were made, from where they were then.
     void measure(const Particles &particles, const CellGrid &grid, const Field<double> &x, const Field<double> &y,

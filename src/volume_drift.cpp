@@ -72,8 +72,8 @@ public:
         const int64_t i = world_.particle_listed_at(at);
         place[count] = at;
         of[count] = Neighborhood(world_.particles.x[i], world_.particles.y[i], radius_, world_.constants.spacing);
-        // The cells are those of the last sort: what is near now was no more than `shifted` farther away then.
-        const double x = world_.list_origin.x[at], y = world_.list_origin.y[at], reach = radius_ + world_.shifted;
+        // The cells are those of the last sort.
+        const double x = world_.list_origin.x[at], y = world_.list_origin.y[at], reach = world_.radius_then(radius_);
         Box box{x - reach, x + reach, y - reach, y + reach};
         if (count++ > 0)
             box = {std::min(box.x_min, box_.x_min), std::max(box.x_max, box_.x_max), std::min(box.y_min, box_.y_min),

@@ -80,11 +80,13 @@ Compressed find_compressed(const World &world) {
 double approach_to(const World &world, int64_t i) {
     const Particles &p = world.particles;
     const Vector at(p.x[i], p.y[i]), velocity(p.vx[i], p.vy[i]);
+    const double about = 2 * world.constants.reach;
+    const ListOrigin &origin = world.list_origin; // the step is a good one: particles are in the order of the lists
     double fastest = 0;
-    for_each_candidate(world.grid, world.images, at.x(), at.y(), 2 * world.constants.reach, [&](int64_t j) {
+    for_each_candidate(world.grid, world.images, origin.x[i], origin.y[i], world.radius_then(about), [&](int64_t j) {
         const Vector apart = Vector(p.x[j], p.y[j]) - at;
         const double distance = apart.norm();
-        if (distance > 0)
+        if (distance > 0 && distance < about)
             fastest = std::max(fastest, -apart.dot(Vector(p.vx[j], p.vy[j]) - velocity) / distance);
     });
     const Walls &walls = world.walls;

@@ -76,7 +76,7 @@ struct alignas(64) BlockRange {
 };
 
 // gp_state.at_rest: below this, in g, an acceleration does not count; what does is averaged over this many steps, since grains
-// that touch push each other to and fro from step to step.
+// that touch and flow, without stress or at yield, push each other to and fro from step to step.
 constexpr double rest_acceleration = 0.05, rest_steps = 20;
 
 // What a step changes before it is known to be good (undo.hpp).
@@ -135,9 +135,10 @@ struct World {
     bool lists_new = false;  // made in the present step: it has sorted the particles
     bool lists_whole = true; // false: memory ran out while they were made
     ListOrigin list_origin;
-    Field<int32_t> listed;    // particle of each place in the lists and cells, where a sort was undone; empty: the same
-    double skin = 0;          // m
-    double shifted = 0;       // m, bound on the relative shift of any two since the lists were made
+    Field<int32_t> listed; // particle of each place in the lists and cells, where a sort was undone; empty: the same
+    double skin = 0;       // m
+    // m, bound on the relative shift of any two since the lists were made, but for moves without a velocity (stages/collide.cpp)
+    double shifted = 0;
     double closed_in = 0;     // m, and on that of those that may come into each other's reach: what makes lists anew
     ShiftTiles tiles;         // what that is measured in
     double velocity_span = 0; // m/s, bound on the difference of any two velocities, plates in reach included
@@ -160,6 +161,14 @@ struct World {
     int64_t retries = 0;
 
     int64_t particle_listed_at(int64_t place) const { return listed.empty() ? place : listed[place]; }
+    // m: what is within a radius now was within this of where one was when the lists were made.
+    double radius_then(double radius) const {
+        // Particles that were in tiles next to each other have moved by no more than closed_in; others were tiles.width() apart,
+        // and may have moved by so much more: not to within reach as long as the lists are good.
+        const bool listed_near = radius <= constants.reach && closed_in <= skin;
+        const double moved = listed_near ? skin : closed_in + (tiles.width() - constants.reach - skin);
+        return radius + std::min(shifted, moved);
+    }
     const ReturnMap &map_of(int64_t i) const { return material_of(i).map; }
     const MaterialConstants &material_of(int64_t i) const {
         return constants.materials[constants.body_material[particles.column[i]]];

@@ -90,7 +90,9 @@ module granperi_raw
         real(c_double) :: delta
             !! 1/s, regularisation of the viscosity ([1] 3.6); with GP_STRESS_ELASTIC only of the reported one; with
             !! GP_STRESS_IMPLICIT 1e-4 and below leave the same deposit; > 0 [1e-6]
-        real(c_double) :: collision_distance !! dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9]
+        real(c_double) :: collision_distance
+            !! dl, closer approaching pairs of which both flow collide (in the schemes by number density all; [1] 2.9);
+            !! 0: off; 0 .. 1 [0.9]
         real(c_double) :: zero_energy_penalty
             !! of the velocity that the gradient does not see, in rho c0 / dl; inside the yield surface at least 0.2
             !! with GP_STRESS_ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02]
@@ -382,15 +384,17 @@ module granperi_raw
             !! 1: the material has come to rest: the kinetic energy is below 1e-6 of the scene's energy scale, the
             !! plastic power of the last step would dissipate less than 1e-4 of it in the scene's free-fall time, and no
             !! more than 1 % of the mass is accelerated by more than 0.05 g, on average over some 20 steps (single
-            !! grains may tremble on a plate; of fewer than 200 particles two, but no more than 5 % of the mass). And no
-            !! plate has motion of its own left (a velocity or a turn, also of gp_set_plate_motion, a belt, or knots
-            !! that displace it further) that is within the horizon of the box around all particles, or will come so
-            !! near on its way, as straight lines between here and the farthest places that it comes to have it; a plate
-            !! under a load there rests itself: its kinetic energy is below the same 1e-6, and the material bears its
-            !! load within 5 %. The energy scale is the largest of the initial energy of the ledger and the largest
-            !! kinetic energy so far; after gp_set_gravity the energy then, with the potential from the lowest face of
-            !! the material on, and the largest kinetic energy since
-        integer(c_int64_t) :: collisions !! colliding pairs so far ([1] 2.9), each step's counted anew
+            !! grains at yield, at tips and surfaces, may push each other; of fewer than 200 particles two, but no more
+            !! than 5 % of the mass). And no plate has motion of its own left (a velocity or a turn, also of
+            !! gp_set_plate_motion, a belt, or knots that displace it further) that is within the horizon of the box
+            !! around all particles, or will come so near on its way, as straight lines between here and the farthest
+            !! places that it comes to have it; a plate under a load there rests itself: its kinetic energy is below the
+            !! same 1e-6, and the material bears its load within 5 %. The energy scale is the largest of the initial
+            !! energy of the ledger and the largest kinetic energy so far; after gp_set_gravity the energy then, with
+            !! the potential from the lowest face of the material on, and the largest kinetic energy since
+        integer(c_int64_t) :: collisions
+            !! colliding pairs so far ([1] 2.9), each step's counted anew; with them half of the pairs that are as close
+            !! and approach, but of which only one particle flows
         real(c_double) :: wall_seconds !! s of wall-clock time inside the steps so far
         real(c_double) :: sound_speed !! m/s, c0 in use
         real(c_double) :: penalty_dissipated

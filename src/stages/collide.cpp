@@ -7,6 +7,7 @@
 // each parting, and a heap crept by what trembled in it: in 3 s, from 3 s on, by .035 dl in the middle of 24 collapses of a = 1.25
 // and L/dl = 16, at 3e-12 J/m for as long as it was looked at. So it creeps by .001 dl, what is at yield, and dies away to
 // 1e-30 J/m. Where one particle flows and one does not they do not collide either: what falls on a heap is borne by its stress.
+// By number density, where nothing says what flows, pairs collide everywhere.
 //
 // Where what flows is more crowded than its density knows, it has to come apart, not only to come no closer: there the part of
 // the approach that the mean flow explains, -r.L.r of the two gradients' mean, stays in the velocities, and the positions make up

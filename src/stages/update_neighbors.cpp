@@ -65,6 +65,10 @@ double measure_closing(World &world) {
 // few steps it grows with the root of the shift per step.
 constexpr double thinnest_skin = 0.1, thickest_skin = 0.8, skin_factor = 2.0;
 
+// No skin is below this in shifts: lists are kept for as long as one more shift of any two fits in, however little those near
+// each other have moved.
+constexpr double least_shifts = 1.5;
+
 // Cells, in dl. Clusters are as compact as two rows of particles make them; finer cells along the rows put particles nearly
 // in the order of x.
 constexpr double cell_width = 1, cell_height = 2;
@@ -72,12 +76,15 @@ constexpr double cell_width = 1, cell_height = 2;
 // Of the particles about a ghost's mirror point, in dl: one of a dense set is always within a spacing.
 constexpr double mirror_reach = 1.5;
 
-// The cells for all particles, whoever works on them.
-CellFrame find_frame(World &world) {
+// The cells for all particles, whoever works on them. count: how many these are.
+CellFrame find_frame(World &world, int64_t &count) {
     world.box = box_of(world.particles);
+    count = world.particles.count;
     if (world.crossing) {
         double far[4] = {-world.box.x_min, world.box.x_max, -world.box.y_min, world.box.y_max};
-        world.crossing->combine(far, 4, nullptr, 0);
+        Whole sum = count;
+        world.crossing->combine(far, 4, &sum, 1);
+        count = static_cast<int64_t>(sum);
         world.box = {-far[0], far[1], -far[2], far[3]};
     }
     const Constants &c = world.constants;
@@ -103,8 +110,8 @@ void update_neighbors(World &world) {
             world.walls.face_facets(world.particles);
         return;
     }
-    world.skin =
-        c.spacing * std::clamp(skin_factor * std::sqrt(share * shift / c.spacing), thinnest_skin, thickest_skin);
+    const double least = std::min(std::max(thinnest_skin, least_shifts * shift / c.spacing), thickest_skin);
+    world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(share * shift / c.spacing), least, thickest_skin);
     world.shifted = world.closed_in = 0;
     if (c.period)
         wrap(world);
@@ -118,7 +125,8 @@ void make_lists(World &world) {
     const double close = world.scene->config().collision_distance * c.spacing + world.skin;
     const double tolerance = 1e-9 * c.spacing;
     world.lists_whole = world.lists_valid = false;
-    const CellFrame frame = find_frame(world);
+    int64_t count = 0;
+    const CellFrame frame = find_frame(world, count);
     if (world.crossing)
         go_to_owners(world, frame);
     world.grid.sort(world.particles, frame, world.threads);
@@ -133,9 +141,11 @@ void make_lists(World &world) {
         origin.plates.push_back(plate.state());
     // Ghosts up to `radius` beyond the particles extrapolate from what is within `radius` of them. In the implicit scheme a ghost
     // exerts its force on the particles about its mirror point, which may be as far in front of the wall as it is behind it, and
-    // gets it from what sees it; past a convex corner both are up to sqrt(3) radii apart.
+    // gets it from what sees it; past a convex corner both are up to sqrt(3) radii apart. GP_FIELD_NUMBER_DENSITY may reach farther:
+    // those near each other have moved by no more than the skin, and what comes from other tiles has room as theirs.
     const bool mirrored = c.scheme == Scheme::implicit;
-    const double far = (mirrored ? 3 : 2) * radius;
+    const double counted = c.interaction_radius + world.skin + room_of_tiles * c.spacing;
+    const double far = std::max((mirrored ? 3 : 2) * radius, counted);
     if (world.crossing) {
         world.halo->find(world.particles, frame, c.period, far);
         world.images.make(world.particles, world.grid, *world.halo);
@@ -151,7 +161,7 @@ void make_lists(World &world) {
     }
     const Barriers &barriers = world.walls.barriers(world.particles, world.grid, radius, world.crossing);
     const auto find = [&] {
-        world.tiles.cut(world.grid, world.box, c.reach + room_of_tiles * c.spacing);
+        world.tiles.cut(world.grid, world.box, count, c.reach + room_of_tiles * c.spacing);
         find_clusters(world.particles, world.grid, world.images, radius, close, barriers, tolerance, world.threads,
                       world.clusters);
     };

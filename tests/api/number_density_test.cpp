@@ -26,3 +26,24 @@ TEST(NumberDensity, IsThatOfTheLatticeWhileAllFalls) {
         }
     }
 }
+
+// Across the ends of the period, too, where the lists reach less far than the weight does.
+TEST(NumberDensity, IsThatOfARowWhereverThePeriodEnds) {
+    gp_config c = config(0.01);
+    c.horizon = 1.8;
+    c.interaction_radius = 6;
+    c.periodic_x_min = 0;
+    c.periodic_x_max = 0.2;
+    c.gravity_x = 5;
+    Sim sim(c);
+    sim.column(0, 0, 0.2, 0.2, sim.material(0.38, 0.62));
+    for (const double time : {0.0, 0.05, 0.2}) {
+        if (time > 0)
+            sim.run(time);
+        const std::vector<double> y = sim.field(GP_FIELD_Y), density = sim.field(GP_FIELD_NUMBER_DENSITY);
+        for (std::size_t i = 0; i < y.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (std::abs(y[i] - y[j]) < 1e-6 * c.spacing)
+                    ASSERT_NEAR(density[i], density[j], 1e-6) << time << " " << i << " " << j;
+    }
+}

@@ -276,7 +276,7 @@ class Config(Parameters):
     delta: float
     """1/s, regularisation of the viscosity ([1] 3.6); with Stress.ELASTIC only of the reported one; with Stress.IMPLICIT 1e-4 and below leave the same deposit; > 0 [1e-6]"""
     collision_distance: float
-    """dl, closer approaching pairs collide ([1] 2.9); 0: off; 0 .. 1 [0.9]"""
+    """dl, closer approaching pairs of which both flow collide (in the schemes by number density all; [1] 2.9); 0: off; 0 .. 1 [0.9]"""
     zero_energy_penalty: float
     """of the velocity that the gradient does not see, in rho c0 / dl; inside the yield surface at least 0.2 with Stress.ELASTIC; 0: off; 0 .. 0.5 [the scheme's own: 0.02]"""
     density_diffusion: float
