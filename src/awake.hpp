@@ -8,16 +8,19 @@ namespace gp {
 
 // The span of a cell (sleep.hpp), by its column of spans and its row.
 constexpr int64_t span_columns = 16;
-inline Cell span_at(const Cell &cell) {
-    const int64_t left = cell.column < 0 ? span_columns - 1 : 0; // a division rounds to zero
-    return {(cell.column - left) / span_columns, cell.row};
+// The quotient rounded down: a division rounds to zero.
+inline int64_t floored(int64_t a, int64_t b) {
+    return (a - (a < 0 ? b - 1 : 0)) / b;
 }
-// The cell that says whose a cell is: with sleep in use that of the middle of its span.
-inline Cell cell_of_owner(const World &world, const Cell &cell) {
-    if (!world.sleep.in_use)
-        return cell;
-    const Cell span = span_at(cell);
-    return {span_columns * span.column + span_columns / 2, span.row};
+inline Cell span_at(const Cell &cell) {
+    return {floored(cell.column, span_columns), cell.row};
+}
+// The place that says whose a particle is: the middle of its cell, with sleep in use of the middle cell of its span.
+inline Vector place_of_owner(const World &world, const CellFrame &frame, double x, double y) {
+    Cell cell = frame.cell_of(x, y);
+    if (world.sleep.in_use)
+        cell.column = span_columns * span_at(cell).column + span_columns / 2;
+    return frame.middle_of(cell);
 }
 
 // Calls body(span, begin, end) for the first `count` of lit, or of all where none sleeps.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "kernel.hpp"
 #include "parallel.hpp"
@@ -98,16 +97,14 @@ const double *read_field(const World &world, uint32_t bit, Field<double> &scratc
     }
 }
 
-FieldsById::FieldsById(const World &world)
-    : world_(world), count_(count_of_all(world)), by_id_(static_cast<std::size_t>(world.particles.count)) {
-    const Field<int64_t> &id = world.particles.id;
-    if (!world.crossing) { // all are here
-        for (int64_t i = 0; i < count_; ++i)
-            by_id_[id[i]] = static_cast<int32_t>(i);
+FieldsById::FieldsById(const World &world) : world_(world), count_(count_of_all(world)) {
+    if (world.crossing) {
+        by_id_ = world.particles.by_id();
         return;
     }
-    std::iota(by_id_.begin(), by_id_.end(), 0);
-    std::sort(by_id_.begin(), by_id_.end(), [&](int32_t a, int32_t b) { return id[a] < id[b]; });
+    by_id_.resize(static_cast<std::size_t>(world.particles.count)); // all are here
+    for (int64_t i = 0; i < count_; ++i)
+        by_id_[world.particles.id[i]] = static_cast<int32_t>(i);
 }
 
 void FieldsById::read(uint32_t bit, int64_t first, int64_t count, double *out) {

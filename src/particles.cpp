@@ -1,6 +1,7 @@
 #include "particles.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "parallel.hpp"
 
@@ -99,6 +100,13 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
             gather(field);
             field.swap(ax);
         });
+}
+
+std::vector<int32_t> Particles::by_id() const {
+    std::vector<int32_t> sorted(static_cast<std::size_t>(count));
+    std::iota(sorted.begin(), sorted.end(), 0);
+    std::sort(sorted.begin(), sorted.end(), [&](int32_t a, int32_t b) { return id[a] < id[b]; });
+    return sorted;
 }
 
 void Particles::give_back_accelerations() {

@@ -127,6 +127,8 @@ struct Particles {
 
     // After the gradient: what it went by in their memory is over.
     void give_back_accelerations();
+    // The particles here in the order of their ids.
+    std::vector<int32_t> by_id() const;
     // After a step that did not come to its end: what lies in the memory of other fields gives it back.
     void give_back(bool stressed_in_shape);
 };

@@ -61,6 +61,16 @@ int64_t sum_of_all(Crossing &crossing, int64_t count) {
     return static_cast<int64_t>(all);
 }
 
+std::vector<double> least_of_all(Crossing &crossing, const std::vector<double> &own, int64_t numbers, int64_t keys) {
+    std::vector<double> all;
+    crossing.gather_everywhere(own, all);
+    auto least = all.begin();
+    for (auto next = all.begin(); next != all.end(); next += numbers)
+        if (std::lexicographical_compare(next, next + keys, least, least + keys))
+            least = next;
+    return all.empty() ? all : std::vector<double>(least, least + numbers);
+}
+
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest) {
     constexpr int most = 4;
     std::array<Whole, most * bins::count> wholes;
@@ -152,7 +162,7 @@ void run_on_first(Crossing &crossing, const std::function<void()> &body) {
 
 void require_bounded_everywhere(const World &world, bool suspect, const std::function<void()> &look) {
     std::string text;
-    std::vector<double> own, all; // keys
+    std::vector<double> own; // key, rank
     if (suspect)
         try {
             look();
@@ -169,11 +179,7 @@ void require_bounded_everywhere(const World &world, bool suspect, const std::fun
     world.crossing->combine(&diverged, 1, nullptr, 0);
     if (diverged == 0)
         return;
-    world.crossing->gather_everywhere(own, all);
-    const double *least = all.data();
-    for (const double *next = all.data(), *end = next + all.size(); next != end; next += 5)
-        if (std::lexicographical_compare(next, next + 5, least, least + 5))
-            least = next;
+    const std::vector<double> least = least_of_all(*world.crossing, own, 5, 5);
     tell_all_of(*world.crossing, text, static_cast<int>(least[4]));
     throw Error(GP_E_DIVERGED, text);
 }
@@ -194,7 +200,6 @@ std::unique_ptr<World> make_part(const Scene &scene, Crossing &crossing) {
     auto part = make_bare_world(scene, scene.constants(impact), 1); // fields in use have a size
     part->crossing = &crossing;
     part->halo = std::make_unique<Halo>(crossing);
-    part->mass = mass_of_all(*part);
     return part;
 }
 
@@ -217,7 +222,7 @@ void deal_out_anew(World &world, const CellFrame &frame) {
     Particles &p = world.particles;
     std::vector<double> x(p.count), y(p.count);
     for (int64_t i = 0; i < p.count; ++i) {
-        const Vector middle = frame.middle_of(cell_of_owner(world, frame.cell_of(p.x[i], p.y[i])));
+        const Vector middle = place_of_owner(world, frame, p.x[i], p.y[i]);
         x[i] = middle.x();
         y[i] = middle.y();
     }
@@ -289,7 +294,7 @@ void go_to_owners(World &world, const CellFrame &frame) {
     std::vector<std::vector<double>> out(static_cast<std::size_t>(crossing.ranks())), in;
     int64_t kept = 0;
     for (int64_t i = 0; i < p.count; ++i) {
-        const Vector middle = frame.middle_of(cell_of_owner(world, frame.cell_of(p.x[i], p.y[i])));
+        const Vector middle = place_of_owner(world, frame, p.x[i], p.y[i]);
         const int owner = crossing.owner(middle.x(), middle.y());
         if (owner == crossing.rank()) {
             p.id[kept] = p.id[i];

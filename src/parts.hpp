@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "binned_sum.hpp"
 #include "error.hpp"
@@ -26,6 +27,10 @@ std::unique_ptr<World> begin_part(const Scene &scene, Crossing &crossing);
 double sum_of_all(const World &world, double energy);
 
 int64_t sum_of_all(Crossing &crossing, int64_t count);
+
+// Of rows of so many numbers, of which each process has none, one or some, the least by its first `keys` numbers; the first of equal
+// ones. Empty where there is none.
+std::vector<double> least_of_all(Crossing &crossing, const std::vector<double> &own, int64_t numbers, int64_t keys);
 
 // Sums, and the largest of a number of each process: of all.
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest);

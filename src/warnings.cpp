@@ -197,18 +197,14 @@ struct Overlaps {
 // Those of all processes. Of pairs that are as close the first is that which a process alone finds first.
 void combine_overlaps(const World &world, Overlaps &found) {
     const auto number = [](int64_t whole) { return static_cast<double>(whole); };
-    std::vector<double> own, all;
+    std::vector<double> own;
     if (found.count > 0) {
         const Cell cell = world.grid.frame().cell_of(found.x, found.y);
         own = {found.closest, number(cell.row), number(cell.column), number(found.first), number(found.second),
                found.x,       found.y};
     }
     found.count = sum_of_all(*world.crossing, found.count);
-    world.crossing->gather_everywhere(own, all);
-    const double *least = all.data();
-    for (const double *next = all.data(), *end = next + all.size(); next != end; next += 7)
-        if (std::lexicographical_compare(next, next + 4, least, least + 4))
-            least = next;
+    const std::vector<double> least = least_of_all(*world.crossing, own, 7, 4);
     if (found.count > 0)
         found = {found.count, static_cast<int64_t>(least[3]), static_cast<int64_t>(least[4]), least[0], least[5],
                  least[6]};

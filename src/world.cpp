@@ -4,10 +4,26 @@
 
 namespace gp {
 
+namespace {
+
+// kg/m, added up particle by particle: of all that there are, whoever has them.
+double mass_of(const Scene &scene, const Constants &constants) {
+    double mass = 0;
+    for (const Body &body : scene.bodies()) {
+        const double own = constants.materials[body.material].density * constants.volume;
+        for (int64_t k = 0; k < body.count; ++k)
+            mass += own;
+    }
+    return mass;
+}
+
+} // namespace
+
 std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &constants, int64_t count) {
     auto world = std::make_unique<World>();
     world->scene = &scene;
     world->constants = constants;
+    world->mass = mass_of(scene, constants);
     const int32_t threads = scene.config().threads;
     world->threads = threads > 0 ? threads : default_threads();
     const Constants &c = world->constants;
@@ -34,16 +50,6 @@ std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &cons
     return world;
 }
 
-double mass_of_all(const World &world) {
-    double mass = 0; // added up particle by particle
-    for (const Body &body : world.scene->bodies()) {
-        const double own = world.constants.materials[body.material].density * world.constants.volume;
-        for (int64_t k = 0; k < body.count; ++k)
-            mass += own;
-    }
-    return mass;
-}
-
 void begin_particles(World &world, int64_t first) {
     const Scene &scene = *world.scene;
     const Constants &c = world.constants;
@@ -67,7 +73,6 @@ void begin_particles(World &world, int64_t first) {
         p.sxy[i] = stress[i].sxy;
         p.density[i] = world.material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);
     }
-    world.mass = mass_of_all(world);
     world.walls.place_plates(0, c.spacing / c.wave_speed);
 }
 

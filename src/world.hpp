@@ -181,8 +181,6 @@ struct World {
 
 // With room for so many particles, plates where they begin.
 std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &constants, int64_t count);
-// kg/m, of all particles of its scene, whoever has them.
-double mass_of_all(const World &world);
 // All is as the scene has it at the beginning; the particles are those from `first` on, as many as there is room for.
 void begin_particles(World &world, int64_t first);
 // The world of a scene before its first step: particles and plates in place, no lists yet.

@@ -91,14 +91,6 @@ void write_common(CheckpointWriter &file, const World &world) {
     exchange_pieces(file, pieces);
 }
 
-// The particles of a process alone.
-template <class File, class W> void exchange_particles(File &file, W &world) {
-    auto &p = world.particles;
-    for_each_particle_array(p, [&](const char *name, auto &field) {
-        file.array(name, field, field.empty() ? 0 : static_cast<std::size_t>(p.count));
-    });
-}
-
 // A file that is being written, by the first process.
 class Saving {
 public:
@@ -121,7 +113,9 @@ public:
         for_each_listed_array(world.list_origin.x, world.list_origin.y,
                               [&](const char *name, const auto &values) { file_.array(name, values); });
         file_.array("listed", world.listed);
-        exchange_particles(file_, world);
+        for_each_particle_array(world.particles, [&](const char *name, const auto &field) {
+            file_.array(name, field, field.empty() ? 0 : static_cast<std::size_t>(world.particles.count));
+        });
     }
     // All particles have been written.
     void write_loads_of_sleep(const std::vector<MeanLoad> &loads) {
@@ -230,10 +224,14 @@ void read_particles(CheckpointReader &file, const Checker &check, const Scene &s
         check.require_each(w.grid.order()[k] == static_cast<int32_t>(k),
                            [] { return std::string("lists: the particles are not in their order"); });
     w.listed = std::move(listed);
-    exchange_particles(file, w);
-    for_each_particle_array(p, [&](const char *name, const auto &field) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Field<double>>)
-            check_numbers(check, w, name, p.column.data(), field.data(), field.empty() ? 0 : n);
+    std::copy(id.begin(), id.end(), p.id.begin());
+    std::copy(column.begin(), column.end(), p.column.begin());
+    for_each_particle_array(p, [&](const char *name, auto &field) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Field<double>>) {
+            const std::size_t size = field.empty() ? 0 : n;
+            file.array(name, field, size);
+            check_numbers(check, w, name, p.column.data(), field.data(), size);
+        }
     });
 }
 
@@ -293,12 +291,10 @@ std::unique_ptr<World> read_world(CheckpointReader &file, const Checker &check, 
                   format_text("particles/id: %zu values, expected %lld", particles,
                               static_cast<long long>(scene.particle_count())));
     std::unique_ptr<World> world;
-    if (sim.crossing()) {
+    if (sim.crossing())
         world = make_part(scene, *sim.crossing());
-    } else {
+    else
         world = make_bare_world(scene, scene.constants(), scene.particle_count());
-        world->mass = mass_of_all(*world);
-    }
     read_clock_and_sums(file, check, *world);
     const ListTable lists = read_lists(file, check, *world);
     file.group("/particles");

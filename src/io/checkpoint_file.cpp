@@ -49,15 +49,16 @@ std::string word_of_line(const std::string &text, const char *name, std::size_t 
 }
 
 // The text but for its checksum counts, too.
+uint64_t checksum_of(const std::string &text) {
+    return checksum_of(reinterpret_cast<const unsigned char *>(text.data()), text.size(), text.size());
+}
 std::string sealed(const std::string &text, const unsigned char *bytes, std::size_t size) {
-    const uint64_t of_text =
-        checksum_of(reinterpret_cast<const unsigned char *>(text.data()), text.size(), text.size());
-    return whole_text(text, checksum_of(bytes, size, of_text));
+    return whole_text(text, checksum_of(bytes, size, checksum_of(text)));
 }
 
 // The same of a file behind its text.
 std::string sealed(const std::string &text, int fd, uint64_t size, const std::string &path) {
-    uint64_t sum = checksum_of(reinterpret_cast<const unsigned char *>(text.data()), text.size(), text.size());
+    uint64_t sum = checksum_of(text);
     std::vector<unsigned char> piece(piece_size);
     for (uint64_t at = text_size; at < size;) {
         const std::size_t some =

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "awake.hpp"
 #include "io/checkpoint_parts.hpp"
@@ -215,9 +214,7 @@ void read_rows(const CheckpointReader &file, const Checker &check, World &part) 
 
     // Each sends the rest of what it reads to the owners of the cells.
     Particles &p = part.particles;
-    std::vector<int32_t> by_id(static_cast<std::size_t>(p.count));
-    std::iota(by_id.begin(), by_id.end(), 0);
-    std::sort(by_id.begin(), by_id.end(), [&](int32_t a, int32_t b) { return p.id[a] < p.id[b]; });
+    const std::vector<int32_t> by_id = p.by_id();
     EachOnce each_once(crossing, std::max<int64_t>(1, stretch.all()));
     std::vector<const char *> names;
     std::vector<Field<double> *> fields;
@@ -249,7 +246,7 @@ void read_rows(const CheckpointReader &file, const Checker &check, World &part) 
             to.clear();
         const CellFrame &frame = part.grid.frame();
         for (std::size_t k = 0; k < count; ++k) {
-            const Vector middle = frame.middle_of(cell_of_owner(part, frame.cell_of(x[k], y[k])));
+            const Vector middle = place_of_owner(part, frame, x[k], y[k]);
             std::vector<double> &to = out[static_cast<std::size_t>(crossing.owner(middle.x(), middle.y()))];
             to.push_back(static_cast<double>(id[k]));
             for (const std::vector<double> &of : values)

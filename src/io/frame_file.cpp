@@ -16,7 +16,7 @@ struct FrameFile::Impl : FrameDatasets {
     const char *suffix = "";               // of the files until they are published
     std::string file_name, side_file_name; // with it
     int replaced_fd = -1;                  // of the XDMF file that will be replaced: holds its lock
-    Store store;
+    FrameStore store;
     XdmfFile side;
 
     ~Impl() {
@@ -97,7 +97,7 @@ struct FrameFile::Impl : FrameDatasets {
         return file < 0 || H5Fclose(file.release()) >= 0;
     }
 
-    // Leaves the file on the disk as it was last committed. HDF5 itself closes as usual, into memory: see Store.
+    // Leaves the file on the disk as it was last committed. HDF5 itself closes as usual, into memory: see FrameStore.
     void abandon() noexcept {
         if (!is_open)
             return;
@@ -107,9 +107,9 @@ struct FrameFile::Impl : FrameDatasets {
     }
 
     void create(const FrameHeader &header, const FrameRows &constant_values) {
-        driver = own(H5FDregister(&store_driver()), "register the file driver");
+        driver = own(H5FDregister(&frame_store_driver()), "register the file driver");
         access = own(H5Pcreate(H5P_FILE_ACCESS), "describe the file");
-        Store *const target = &store;
+        FrameStore *const target = &store;
         check(H5Pset_driver(access, driver, &target), "set the file driver");
         check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "describe the file");
         check(H5Pset_cache(access, 0, 0, 0, 0.0), "describe the file"); // every chunk is written once and whole

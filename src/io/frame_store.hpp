@@ -4,20 +4,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <iterator>
 #include <vector>
 
-#include <fcntl.h>
-#include <hdf5.h>
-#if H5_VERSION_GE(1, 13, 0)
-#include <H5FDdevelop.h>
-#endif
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/hdf5_driver.hpp"
 #include "io/safe_file.hpp"
 
 namespace gp::io {
@@ -26,8 +20,8 @@ namespace gp::io {
 // leave a file without a readable frame, and after a failed write HDF5 can neither close the file nor end quietly.
 // Here, what falls on new space goes to the disk at once, because nothing refers to it yet; what changes the committed
 // part waits for commit(), which writes it in an order in which the file is valid after each write. HDF5 never sees a
-// write fail: after a failure everything stays in memory, and commit() tells.
-struct Store {
+// write fail: after a failure everything stays in memory, and commit() tells. Readers may look at the file while it grows.
+struct FrameStore {
     struct Change {
         int rank;
         haddr_t address;
@@ -61,6 +55,13 @@ struct Store {
     // if it were the last block.
     static constexpr haddr_t page = 4096; // or a multiple
 
+    void open() {
+        struct stat status;
+        eoa = 0;
+        end = ::fstat(fd, &status) == 0 ? static_cast<haddr_t>(status.st_size) : 0;
+    }
+    void truncate() noexcept { end = eoa; }
+
     haddr_t allocate(hsize_t size) noexcept {
         const haddr_t address = size <= page && eoa % page + size > page ? eoa + page - eoa % page : eoa;
         eoa = address + size + (size == page ? 8 : 0);
@@ -85,15 +86,9 @@ struct Store {
     }
 
     bool read(haddr_t address, size_t size, void *destination) const noexcept {
+        if (!read_or_zeros(fd, destination, size, address))
+            return false;
         char *bytes = static_cast<char *>(destination);
-        for (size_t done = 0; done < size;) {
-            const ssize_t n = ::pread(fd, bytes + done, size - done, static_cast<off_t>(address + done));
-            if (n < 0 && errno != EINTR)
-                return false;
-            if (n == 0)
-                std::memset(bytes + done, 0, size - done);
-            done = n == 0 ? size : done + static_cast<size_t>(std::max<ssize_t>(n, 0));
-        }
         for (const Change &change : changes) {
             const haddr_t first = std::max(address, change.address);
             const haddr_t last = std::min(address + size, change.address + change.bytes.size());
@@ -131,57 +126,13 @@ struct Store {
     }
 };
 
-struct StoreFile {
-    H5FD_t base; // HDF5's part, has to be first
-    Store *store;
-};
-
-inline Store &store_of(const H5FD_t *file) {
-    return *reinterpret_cast<const StoreFile *>(file)->store;
-}
-
-inline H5FD_t *open_store(const char *, unsigned, hid_t access, haddr_t) {
-    StoreFile *file = static_cast<StoreFile *>(std::calloc(1, sizeof(StoreFile)));
-    struct stat status;
-    if (file == nullptr)
-        return nullptr;
-    file->store = *static_cast<Store *const *>(H5Pget_driver_info(access));
-    file->store->eoa = 0;
-    file->store->end = ::fstat(file->store->fd, &status) == 0 ? static_cast<haddr_t>(status.st_size) : 0;
-    return &file->base;
-}
-
-// A driver of HDF5 that hands everything to a Store. Without a lock: readers may look at the file while it grows.
-inline const H5FD_class_t &store_driver() {
+inline const H5FD_class_t &frame_store_driver() {
     static const H5FD_class_t driver = [] {
-        H5FD_class_t c{};
-#if H5_VERSION_GE(1, 13, 0)
-        c.version = H5FD_CLASS_VERSION;
-        c.value = 1024; // any number that HDF5 leaves to applications
-#endif
-        c.name = "granperi";
-        c.maxaddr = (haddr_t{1} << 62) - 1;
-        c.fc_degree = H5F_CLOSE_STRONG;
-        c.fapl_size = sizeof(void *); // of a property list: where its Store is
-        c.open = open_store;
-        c.close = [](H5FD_t *file) -> herr_t { return std::free(file), 0; };
-        c.query = [](const H5FD_t *, unsigned long *flags) -> herr_t {
-            if (flags != nullptr)
-                *flags = H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
-            return 0;
+        H5FD_class_t c =
+            driver_of<FrameStore, H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE>("granperi", 1024);
+        c.alloc = [](H5FD_t *file, H5FD_mem_t, hid_t, hsize_t size) {
+            return store_of<FrameStore>(file).allocate(size);
         };
-        c.alloc = [](H5FD_t *file, H5FD_mem_t, hid_t, hsize_t size) { return store_of(file).allocate(size); };
-        c.get_eoa = [](const H5FD_t *file, H5FD_mem_t) { return store_of(file).eoa; };
-        c.set_eoa = [](H5FD_t *file, H5FD_mem_t, haddr_t eoa) -> herr_t { return store_of(file).eoa = eoa, 0; };
-        c.get_eof = [](const H5FD_t *file, H5FD_mem_t) { return store_of(file).end; };
-        c.read = [](H5FD_t *file, H5FD_mem_t, hid_t, haddr_t address, size_t size, void *bytes) -> herr_t {
-            return store_of(file).read(address, size, bytes) ? 0 : -1;
-        };
-        c.write = [](H5FD_t *file, H5FD_mem_t type, hid_t, haddr_t address, size_t size, const void *bytes) -> herr_t {
-            return store_of(file).write(type, address, size, bytes), 0;
-        };
-        c.truncate = [](H5FD_t *file, hid_t, hbool_t) -> herr_t { return store_of(file).end = store_of(file).eoa, 0; };
-        std::fill(std::begin(c.fl_map), std::end(c.fl_map), H5FD_MEM_DEFAULT);
         return c;
     }();
     return driver;

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <system_error>
 #include <utility>
 
@@ -165,6 +167,16 @@ std::size_t read_some(int fd, void *bytes, std::size_t size, uint64_t offset, co
         done += static_cast<std::size_t>(n);
     }
     return done;
+}
+
+bool read_or_zeros(int fd, void *bytes, std::size_t size, uint64_t offset) noexcept {
+    try {
+        const std::size_t done = read_some(fd, bytes, size, offset, "");
+        std::memset(static_cast<char *>(bytes) + done, 0, size - done);
+        return true;
+    } catch (const std::exception &) {
+        return false;
+    }
 }
 
 } // namespace gp::io

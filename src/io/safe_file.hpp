@@ -68,5 +68,7 @@ private:
 
 // As much of it as there is. path: for gp::Error(GP_E_IO).
 std::size_t read_some(int fd, void *bytes, std::size_t size, uint64_t offset, const std::string &path);
+// And zeros behind that. False on failure.
+bool read_or_zeros(int fd, void *bytes, std::size_t size, uint64_t offset) noexcept;
 
 } // namespace gp::io

@@ -47,7 +47,7 @@ void find_spans_of_images(World &world) {
             continue;
         }
         Cell cell = world.images.cell(k);
-        const int64_t turn = columns == 0 || cell.column >= 0 ? (columns > 0 ? cell.column / columns : 0) : -1;
+        const int64_t turn = columns > 0 ? floored(cell.column, columns) : 0;
         cell.column -= turn * columns;
         const Cell span = span_at(cell);
         if (k == 0 || span.column != last.column || span.row != last.row || turn != last_turn)

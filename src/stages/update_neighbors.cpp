@@ -110,7 +110,7 @@ void update_neighbors(World &world) {
             world.walls.face_facets(world.particles);
         return;
     }
-    const double least = std::min(std::max(thinnest_skin, least_shifts * shift / c.spacing), thickest_skin);
+    const double least = std::clamp(least_shifts * shift / c.spacing, thinnest_skin, thickest_skin);
     world.skin = c.spacing * std::clamp(skin_factor * std::sqrt(share * shift / c.spacing), least, thickest_skin);
     world.shifted = world.closed_in = 0;
     if (c.period)
