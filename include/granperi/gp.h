@@ -382,11 +382,12 @@ GP_API gp_status gp_set_gravity(gp_sim *sim, double gx, double gy);
  * callback and the output, with GP_DT_RETRY in gp_state.dt_reason; what is undone nobody sees. After the two halves the
  * size is chosen as always. Speeds that ask for too small a step are not retried: the step begins with them.
  *
- * Sleep. With gp_config.sleep = 1 material that rests is left out of the work, in spans of about 32 particles, those in 16 dl by
- * 2 dl of the plane: each of them has gone no more than 0.05 spacing dl within 8 sqrt(dl / g) (a mean speed of 0.006 sqrt(g dl)),
- * their mean stress has changed by less than 2 % of the pressure and of rho g dl, the wave that would go out if they stopped is half
- * of that at most, and all spans that see them, within the horizon, are as quiet. Then their velocity is 0, density and stress stay as they are, and plates go on to bear
- * their mean load; neighbours see them as ever, and what presses them less than the above is held, as by friction at rest. What
+ * Sleep. With gp_config.sleep = 1 material that rests is left out of the work, in spans of about 32 particles, those in 16 dl
+ * by 2 dl of the plane: each of them has gone no more than 0.05 spacing dl within 8 sqrt(dl / g) (a mean speed of 0.006 sqrt(g
+ * dl)), their mean stress has changed by less than 2 % of the pressure and of rho g dl, the wave that would go out if they
+ * stopped is half of that at most, and all spans that see them, within the horizon, are as quiet. Then their velocity is 0,
+ * density and stress stay as they are, and plates go on to bear their mean load; neighbours see them as ever, and what presses
+ * them less than the above is held, as by friction at rest. What
  * of their motion is left counts as dissipated, 1e-9 of a deposit's energy. They wake, at the latest in the step in which they
  * would feel it, when what is within the horizon moves or changes its stress by more than that; when a plate that they see moves,
  * turns, runs as a belt or is loaded; and all of them by gp_set_gravity. Beside a loaded plate and a belt nothing sleeps, nor

@@ -1,7 +1,5 @@
 // A simulation that has been loaded goes on with the same bits, also where lists are of particles that lie far apart, and across the
 // ends of a period, between materials of different density.
-#include <functional>
-
 #include "../support/directory.hpp"
 #include "../support/scene.hpp"
 
@@ -47,10 +45,7 @@ TEST(CheckpointLists, OfAGrainFarAway) {
 }
 
 TEST(CheckpointLists, AcrossAPeriodOfTwoDensities) {
-    gp_config c = config(0.01);
-    c.periodic_x_min = 0;
-    c.periodic_x_max = 0.4;
-    c.gravity_x = 8;
+    gp_config c = flowing_round(0.01, 0.4, 8);
     c.jitter = 0.2;
     Sim sim(c);
     const int32_t light = sim.material(0.38, 0.62);
@@ -65,10 +60,7 @@ TEST(CheckpointLists, AcrossAPeriodOfTwoDensities) {
 }
 
 TEST(CheckpointLists, OfAWidePeriod) {
-    gp_config c = config(0.01);
-    c.periodic_x_min = 0;
-    c.periodic_x_max = 4;
-    c.gravity_x = 3;
+    gp_config c = flowing_round(0.01, 4, 3);
     c.jitter = 0.1;
     Sim sim(c);
     sim.column(0, 0, 0.1, 0.4, sim.material(0.38, 0.62));

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "../support/bytes.hpp"
 #include "../support/directory.hpp"
 #include "api_support.hpp"
 
@@ -15,6 +16,7 @@
 
 using namespace api;
 #ifdef GP_TEST_HDF5
+using test::bytes_of;
 using test::frame_times;
 #endif
 
@@ -33,11 +35,6 @@ protected:
     const test::TemporaryDirectory temporary{"granperi_checkpoint"};
     const std::string directory = temporary.path(), path = directory + "/state.gpc", h5 = directory + "/run.h5";
 };
-
-std::string bytes_of(const std::string &path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 } // namespace
 

@@ -7,13 +7,7 @@ using namespace test;
 
 TEST(NumberDensity, IsThatOfTheLatticeWhileAllFalls) {
     for (const bool periodic : {false, true}) {
-        gp_config c = config(0.01);
-        if (periodic) {
-            c.periodic_x_min = 0;
-            c.periodic_x_max = 0.2;
-            c.gravity_x = 5;
-        }
-        Sim sim(c);
+        Sim sim(periodic ? flowing_round(0.01, 0.2, 5) : config(0.01));
         sim.column(0, 0, 0.2, 0.2, sim.material(0.38, 0.62));
         const std::vector<double> before = sim.field(GP_FIELD_NUMBER_DENSITY);
         EXPECT_GT(*std::min_element(before.begin(), before.end()), 0) << periodic;
@@ -29,12 +23,9 @@ TEST(NumberDensity, IsThatOfTheLatticeWhileAllFalls) {
 
 // Across the ends of the period, too, where the lists reach less far than the weight does.
 TEST(NumberDensity, IsThatOfARowWhereverThePeriodEnds) {
-    gp_config c = config(0.01);
+    gp_config c = flowing_round(0.01, 0.2, 5);
     c.horizon = 1.8;
     c.interaction_radius = 6;
-    c.periodic_x_min = 0;
-    c.periodic_x_max = 0.2;
-    c.gravity_x = 5;
     Sim sim(c);
     sim.column(0, 0, 0.2, 0.2, sim.material(0.38, 0.62));
     for (const double time : {0.0, 0.05, 0.2}) {

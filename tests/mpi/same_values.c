@@ -75,15 +75,20 @@ static void box(gp_sim *s) {
 }
 
 static void coarse(gp_config *c) { c->spacing = 0.004; }
-static void lifted(gp_sim *s) {
-    static const double t[] = {0, 0.01, 0.05}, x[] = {0, 0, 0}, y[] = {0, 0.004, 0.3};
-    add_column(s, 0, 0, 0.12, 0.08, 0, 0, 0);
+/* A column between a wall and a gate, which is lifted: its height by the time. */
+static void add_gated(gp_sim *s, double width, double height, int n, const double *t, const double *y) {
+    static const double x[8];
+    add_column(s, 0, 0, width, height, 0, 0, 0);
     floor_of(s, -1, 1);
     gp_plate p = a_plate(0, 0, 0, 0.2);
     add_plate(s, &p);
-    p = a_plate(0.12, 0.2, 0.12, 0);
-    p.n_knots = 3, p.knot_t = t, p.knot_x = x, p.knot_y = y;
+    p = a_plate(width, 0.2, width, 0);
+    p.n_knots = n, p.knot_t = t, p.knot_x = x, p.knot_y = y;
     add_plate(s, &p);
+}
+static void lifted(gp_sim *s) {
+    static const double t[] = {0, 0.01, 0.05}, y[] = {0, 0.004, 0.3};
+    add_gated(s, 0.12, 0.08, 3, t, y);
 }
 
 /* A ring that turns, of 24 facets. */
@@ -122,11 +127,14 @@ static void two_materials(gp_sim *s) {
     floor_of(s, -1, 1);
 }
 
-static void fluid(gp_sim *s) {
+static void add_fluid_material(gp_sim *s) {
     gp_material m;
     check(gp_material_init(&m, sizeof m), "gp_material_init");
     m.nonlocal_amplitude = 0.48;
     check(gp_add_material(s, &m, NULL), "gp_add_material");
+}
+static void fluid(gp_sim *s) {
+    add_fluid_material(s);
     add_column(s, -0.08, 0, 0.16, 0.06, 1, 0, 0);
     gp_plate p = a_plate(1, 0, -1, 0);
     p.fluidity = GP_FLUIDITY_ZERO;
@@ -173,10 +181,7 @@ static void sleepy(gp_config *c) { coarse(c), c->sleep = 1; }
 static void sleepy_soft(gp_config *c) { sleepy(c), c->sound_speed = 12; }
 static void heap(gp_sim *s) { add_column(s, -0.06, 0, 0.12, 0.04, 0, 0, 0), floor_of(s, -1, 1); }
 static void fluid_heap(gp_sim *s) {
-    gp_material m;
-    check(gp_material_init(&m, sizeof m), "gp_material_init");
-    m.nonlocal_amplitude = 0.48;
-    check(gp_add_material(s, &m, NULL), "gp_add_material");
+    add_fluid_material(s);
     add_column(s, -0.06, 0, 0.12, 0.03, 1, 0, 0);
     floor_of(s, -1, 1);
 }
@@ -191,14 +196,8 @@ static void bed(gp_sim *s) {
     add_plate(s, &p);
 }
 static void held(gp_sim *s) {
-    static const double t[] = {0, 0.35, 0.36, 0.6}, x[] = {0, 0, 0, 0}, y[] = {0, 0, 0.002, 0.3};
-    add_column(s, 0, 0, 0.16, 0.06, 0, 0, 0);
-    floor_of(s, -1, 1);
-    gp_plate p = a_plate(0, 0, 0, 0.2);
-    add_plate(s, &p);
-    p = a_plate(0.16, 0.2, 0.16, 0);
-    p.n_knots = 4, p.knot_t = t, p.knot_x = x, p.knot_y = y;
-    add_plate(s, &p);
+    static const double t[] = {0, 0.35, 0.36, 0.6}, y[] = {0, 0, 0.002, 0.3};
+    add_gated(s, 0.16, 0.06, 4, t, y);
 }
 static void sleepy_ring(gp_config *c) {
     sleepy_soft(c);

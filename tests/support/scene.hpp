@@ -25,6 +25,14 @@ inline gp_config config(double spacing) {
     return c;
 }
 
+// Periodic in x from 0 to `length`, and drawn to the right.
+inline gp_config flowing_round(double spacing, double length, double gravity_x) {
+    gp_config c = config(spacing);
+    c.periodic_x_max = length;
+    c.gravity_x = gravity_x;
+    return c;
+}
+
 // A plate from (x0, y0) to (x1, y1): its body is on the left of that way.
 inline gp_plate plate(double x0, double y0, double x1, double y1, int32_t friction = GP_WALL_NO_SLIP) {
     gp_plate p;

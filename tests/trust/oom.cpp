@@ -15,6 +15,7 @@
 #include <iterator>
 #include <map>
 
+#include "../support/bytes.hpp"
 #include "oom_scenes.hpp"
 
 using namespace test;
@@ -194,31 +195,26 @@ void step(const std::string &scene, const std::string &directory) {
     gp_destroy(sim);
 }
 
-std::string read(const std::string &path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void save_and_load(const std::string &scene, const std::string &directory) {
     const std::string path = directory + "/state.gp", old = directory + "/old.gp";
     gp_sim *sim = make(scene);
     CHECK(gp_save(sim, path.c_str()));
     CHECK(gp_step(sim, steps));
     CHECK(gp_save(sim, old.c_str()));
-    const std::string before = read(path), expected_file = read(old), expected = bits_of(sim);
+    const std::string before = bytes_of(path), expected_file = bytes_of(old), expected = bits_of(sim);
     const std::size_t files = files_in(directory);
     sweep(
         "gp_save", [&] { return gp_save(sim, path.c_str()); },
         [&](gp_status) {
-            if (read(path) != before || files_in(directory) != files)
+            if (bytes_of(path) != before || files_in(directory) != files)
                 fail("gp_save: a failed call left something");
         },
         [&] {
-            if (read(path) != expected_file)
+            if (bytes_of(path) != expected_file)
                 fail("gp_save: another checkpoint");
             std::ofstream(path, std::ios::binary) << before;
         });
-    if (read(path) != expected_file)
+    if (bytes_of(path) != expected_file)
         fail("gp_save: another checkpoint");
     require_same(bits_of(sim), expected, "gp_save changed the simulation");
     gp_sim *loaded = nullptr;
@@ -290,11 +286,11 @@ void output(const std::string &directory) {
     gp_destroy(sim);
     CHECK(gp_load(saved.c_str(), &sim));
     options.append = 1;
-    const std::string before = read(path);
+    const std::string before = bytes_of(path);
     sweep(
         "gp_output_open, append", [&] { return gp_output_open(sim, path.c_str(), &options); },
         [&](gp_status) {
-            if (read(path) != before)
+            if (bytes_of(path) != before)
                 fail("gp_output_open, append: a failed call changed the file");
         },
         close);

@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include "../support/bytes.hpp"
 #include "../support/directory.hpp"
 #include "granperi/gp.h"
 #include "io/checkpoint_file.hpp"
@@ -17,8 +17,7 @@
 namespace {
 
 std::vector<unsigned char> read_file(const std::string &path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return test::bytes_of<std::vector<unsigned char>>(path);
 }
 
 constexpr std::size_t text_size = 512;

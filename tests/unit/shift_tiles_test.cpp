@@ -135,6 +135,15 @@ gp_config config_of(double spacing) {
     return config;
 }
 
+// Blocks that fly, a spacing of 1 m.
+gp_config config_of_blocks(double jitter) {
+    gp_config config = config_of(1);
+    config.sound_speed = 100;
+    config.gravity_y = 0;
+    config.jitter = jitter;
+    return config;
+}
+
 } // namespace
 
 TEST(ShiftTiles, RowsOfACollapseHaveAllInReach) {
@@ -156,10 +165,7 @@ TEST(ShiftTiles, RowsOfACollapseHaveAllInReach) {
 
 // Across the ends of the period, where the last tile is next to the first, they come towards each other; the tiles are few.
 TEST(ShiftTiles, RowsOfWhatMeetsAcrossThePeriodHaveAllInReach) {
-    gp_config config = config_of(1);
-    config.sound_speed = 100;
-    config.gravity_y = 0;
-    config.periodic_x_min = 0;
+    gp_config config = config_of_blocks(0.1);
     config.periodic_x_max = 40;
     config.interaction_radius = 6; // of the number density: farther than the lists reach
     Sim sim(config);
@@ -172,10 +178,7 @@ TEST(ShiftTiles, RowsOfWhatMeetsAcrossThePeriodHaveAllInReach) {
 // all. The space that they fly through has wide tiles, so that some fifty steps count for nothing: the share of what counts comes to
 // nothing as well.
 TEST(ShiftTiles, ListsAreKeptWhereOneStepIsMoreThanTheThinnestSkin) {
-    gp_config config = config_of(1);
-    config.sound_speed = 100;
-    config.gravity_y = 0;
-    config.jitter = 0;
+    gp_config config = config_of_blocks(0);
     config.time_step = 0.01;
     Sim sim(config);
     add_block(sim, 0, 0, 7.5, 0);
@@ -187,11 +190,7 @@ TEST(ShiftTiles, ListsAreKeptWhereOneStepIsMoreThanTheThinnestSkin) {
 // A block that slides on a floor as a whole comes to other ghosts, though nothing in it moves against anything.
 TEST(ShiftTiles, RowsOfGhostsAreThoseOfWhereTheBlockIs) {
     for (const bool plate_moves : {false, true}) {
-        gp_config config = config_of(1);
-        config.sound_speed = 100;
-        config.gravity_y = 0;
-        config.jitter = 0;
-        Sim sim(config);
+        Sim sim(config_of_blocks(0));
         add_block(sim, 0, 0.5, plate_moves ? 0 : 4, 0);
         gp_plate floor = default_plate();
         floor.x0 = 100;
