@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "exact_sum.hpp"
@@ -83,9 +84,10 @@ public:
 
     ExactLoad load; // of the step under way; at its end the next three are taken from it
     void take_load(const LoadScale &scale) {
-        force = Vector(load.fx.value(scale.force), load.fy.value(scale.force));
-        torque = load.torque.value(scale.torque);
-        torque_pivot = load.torque_pivot.value(scale.torque);
+        const std::array<ExactSum *, 4> sums = load.all();
+        force = Vector(sums[0]->value(scale.force), sums[1]->value(scale.force));
+        torque = sums[2]->value(scale.torque);
+        torque_pivot = sums[3]->value(scale.torque);
     }
 
     Vector force = Vector::Zero();   // N/m, of the material on the plate over the last step

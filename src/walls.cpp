@@ -63,10 +63,9 @@ void Walls::add_load(int32_t facet, const Vector &at, const Vector &force) {
     const auto moment = [&](const Vector &arm) { return arm.x() * force.y() - arm.y() * force.x(); };
     const Segment &s = f.segment, &first = facets[facet - f.number].segment;
     const Vector image = nearest_image(s, at);
-    plate.load.fx.add(force.x(), load_scale.force);
-    plate.load.fy.add(force.y(), load_scale.force);
-    plate.load.torque.add(s.along(image) * moment(s.tangent) + moment(s.origin - first.origin), load_scale.torque);
-    plate.load.torque_pivot.add(moment(image - plate.pivot()), load_scale.torque);
+    const double torque = s.along(image) * moment(s.tangent) + moment(s.origin - first.origin);
+    plate.load.add(Lanes{force.x(), force.y(), torque, moment(image - plate.pivot())},
+                   Lanes{load_scale.force, load_scale.force, load_scale.torque, load_scale.torque});
 }
 
 // A facet, and in a periodic scene its images across the ends. One that spans the period has no end: it is one long

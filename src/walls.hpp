@@ -75,13 +75,13 @@ struct Walls {
         return plates[f.plate].velocity_at(nearest_image(f.segment, at)) + f.spec->surface_velocity * f.segment.tangent;
     }
 
-    // The image of a point that is nearest to a facet's middle.
-    Vector nearest_image(const Segment &s, Vector point) const {
-        if (period) {
-            point.x() -=
-                period.length * std::round((point.x() - s.origin.x() - 0.5 * s.length * s.tangent.x()) / period.length);
-        }
-        return point;
+    // The image of a point that is nearest to a facet's middle. (A point changed in place is stored by halves and read as a whole,
+    // for which processors wait.)
+    Vector nearest_image(const Segment &s, const Vector &point) const {
+        if (!period)
+            return point;
+        const double periods = std::round((point.x() - s.origin.x() - 0.5 * s.length * s.tangent.x()) / period.length);
+        return {point.x() - period.length * periods, point.y()};
     }
 
     // The loads are those of one step: the stage that finds the forces clears them first.
