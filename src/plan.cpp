@@ -55,7 +55,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
     const char *none_near = "no plate is within reach of material";
     const char *not_periodic = "the scene is not periodic";
     const char *no_side_walls = t.channel ? "channel_friction is 0" : "channel_width is 0";
-    const bool walls = t.particles && t.plates, sleep = t.particles && t.sleep;
+    const bool walls = t.particles && t.plates, friction = walls && t.friction_plates, sleep = t.particles && t.sleep;
     // Where all material sleeps these have no work.
     const auto awake = sleep ? any_awake : nullptr;
     const auto awake_near = sleep ? awake_in_reach : in_reach;
@@ -100,13 +100,15 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads pressure, stress; writes ghost stress
         {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_stress, awake_near, no_work},
-        // reads sigma K^-1, velocity, velocity gradient, number density; writes acceleration, and what is crowded
+        // reads sigma K^-1, velocity, velocity gradient, number density; writes acceleration, and what is crowded; with
+        // wall_friction also reads position, stress, and writes what plates take off the slip: who has the forces at hand has those
         {"force", t.particles, t.penalty ? "force states, gravity, zero-energy penalty" : "force states, gravity",
-         no_particles, stages::force, awake, all_sleep},
+         no_particles,
+         friction && t.scheme == Scheme::adjoint ? stages::force_and_friction : stages::force, awake, all_sleep},
         // reads acceleration; writes velocity, position
         {"integrate", t.particles, "particles move", no_particles, stages::integrate, awake, all_sleep},
-        // reads contact forces; writes velocity, position
-        {"wall_friction", walls && t.friction_plates, "a plate has friction", "no plate has friction",
+        // reads what plates take off the slip, or finds it by the contact forces; writes velocity, position
+        {"wall_friction", friction, "a plate has friction", "no plate has friction",
          stages::wall_friction, awake_near, no_work},
         // reads pressure; writes velocity, position
         {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",

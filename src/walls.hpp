@@ -36,8 +36,9 @@ struct Contact {
     double ghost_power;          // W/m3: the ghosts' share of sigma : L
     // 1/s: the velocity gradient that the particle's neighbours make without ghosts; kept by its first contact.
     double inner_xx = 0, inner_xy = 0, inner_yx = 0, inner_yy = 0;
-    double held_normal = 0, held_tangential = 0; // m/s: by wall_support and wall_hold in this step
-    double couple = 0;                           // N/m2, a density as the force: on the particle beside it
+    // m/s, what plates give in this step: by wall_support and wall_hold; the second by wall_friction in the default scheme
+    double held_normal = 0, held_tangential = 0;
+    double couple = 0; // N/m2, a density as the force: on the particle beside it
 };
 
 struct Walls {

@@ -192,9 +192,8 @@ template <bool Penalty> void force_clusters(World &world, const View &v, int64_t
     }
 }
 
-} // namespace
-
-void force(World &world) {
+// find(begin, end): what else follows from the forces on some particles.
+template <class Find> void find_forces(World &world, const Find &find) {
     Particles &p = world.particles;
     Walls &walls = world.walls;
     walls.clear_loads();
@@ -228,7 +227,18 @@ void force(World &world) {
         }
         world.sums[block].total_power = p.volume * power;
         world.sums[block].acceleration2 = acceleration2;
+        find(begin, end);
     });
+}
+
+} // namespace
+
+void force(World &world) {
+    find_forces(world, [](int64_t, int64_t) {});
+}
+
+void force_and_friction(World &world) {
+    find_forces(world, [&](int64_t begin, int64_t end) { find_friction(world, begin, end); });
 }
 
 } // namespace gp::stages

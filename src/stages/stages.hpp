@@ -55,12 +55,16 @@ void stress(World &world);
 void wall_stress(World &world);
 // Force states (3.9, 3.10), zero-energy penalty, gravity; loads on the plates.
 void force(World &world);
+// The same and, for the stage wall_friction of the default scheme, what plates take off the slip along them.
+void force_and_friction(World &world);
+// That of the particles begin .. end, which know their accelerations.
+void find_friction(World &world, int64_t begin, int64_t end);
 // u, then r.
 void integrate(World &world);
 // Throws GP_E_DIVERGED if a density, a stress or an acceleration is not finite or out of bounds. Comes before the first
 // change to the particles that undo.hpp does not take back. ax, ay: those that BlockSums::acceleration2 was summed of.
 void require_bounded_step(const World &world, const Field<double> &ax, const Field<double> &ay);
-// Coulomb friction of plates.
+// Coulomb friction of plates: in the default scheme what has been found with the forces.
 void wall_friction(World &world);
 // Coulomb friction of the channel's side walls.
 void side_wall_friction(World &world);
