@@ -79,7 +79,7 @@ template <class Body> void for_each_awake_ghost_run(const World &world, const Bo
 // Calls body(contact) for the contacts of what is awake, in their order.
 template <class Body> void for_each_awake_contact(const World &world, const Body &body) {
     const Sleep &s = world.sleep;
-    const std::vector<Contact> &contacts = world.walls.contacts;
+    const Field<Contact> &contacts = world.walls.contacts;
     const IndexRun whole{0, static_cast<int64_t>(contacts.size())};
     const IndexRun *const first = s.some ? s.contacts.data() : &whole;
     const IndexRun *const last = first + (s.some ? s.contacts.size() : 1);

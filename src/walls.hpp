@@ -35,7 +35,7 @@ struct Contact {
     double power;                // W/m3: of that force on the particle
     double ghost_power;          // W/m3: the ghosts' share of sigma : L
     // 1/s: the velocity gradient that the particle's neighbours make without ghosts; kept by its first contact.
-    double inner_xx = 0, inner_xy = 0, inner_yx = 0, inner_yy = 0;
+    Tensor inner = Tensor::Zero();
     // m/s, what plates give in this step: by wall_support and wall_hold; the second by wall_friction in the default scheme
     double held_normal = 0, held_tangential = 0;
     double couple = 0; // N/m2, a density as the force: on the particle beside it
@@ -65,7 +65,7 @@ struct Walls {
     NeighborList particles_of_ghost; // (close_count unused)
     Field<int32_t> ghost_of_contact; // rows of contacts
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
-    std::vector<Contact> contacts;   // ordered by particle, then chain
+    Field<Contact> contacts;         // ordered by particle, then chain
     WallLanes lanes;                 // both, four at a time
 
     const Plate &plate_of(int32_t facet) const { return plates[facets[facet].plate]; }

@@ -102,20 +102,12 @@ GP_INLINE Tensor gradient_of(const Moments &m, const SymmetricTensor &g) {
     return l;
 }
 
-GP_INLINE void keep_inner_gradient(const Tensor &l, Contact &first) {
-    first.inner_xx = l(0, 0);
-    first.inner_xy = l(0, 1);
-    first.inner_yx = l(1, 0);
-    first.inner_yy = l(1, 1);
-}
-
 // m: of its neighbours; ghosts: of plates.
 GP_INLINE void finish(const View &v, int64_t i, Moments m, const Moments &ghosts) {
     const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
     const Rows::Run run = v.rows.contacts_of(i);
     if (run.first != run.last) {
-        keep_inner_gradient(gradient_of(m, inverse_shape(m, v.lattice_moment)),
-                            v.contacts[run.first - v.rows.contacts]);
+        v.contacts[run.first - v.rows.contacts].inner = gradient_of(m, inverse_shape(m, v.lattice_moment));
         m += ghosts;
     }
     SymmetricTensor g = inverse_shape(m, v.lattice_moment);

@@ -122,11 +122,10 @@ GP_INLINE void drop_wall_shear(const Facet &facet, double omega, Moments &m) {
 inline Tensor inner_gradient(const World &world, int64_t i) {
     const Particles &p = world.particles;
     const Rows::Run contacts = Rows(world).contacts_of(i);
-    Tensor l;
     if (contacts.first != contacts.last)
-        l << contacts.first->inner_xx, contacts.first->inner_xy, contacts.first->inner_yx, contacts.first->inner_yy;
-    else
-        l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
+        return contacts.first->inner;
+    Tensor l;
+    l << p.lxx[i], p.lxy[i], p.lyx[i], p.lyy[i];
     return l;
 }
 
