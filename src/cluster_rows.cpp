@@ -108,7 +108,7 @@ public:
     void find() {
         measure_room();
         const int64_t blocks = list_.blocks();
-        const int64_t wave = blocks_of_thread * threads_;
+        const int64_t wave = std::max(blocks_of_thread * threads_, threads_ > 1 ? blocks_of_several : 0);
         const bool hidden = !barriers_.segments.empty();
         int64_t most = 0;
         for (int64_t block = 0; block < blocks; block += wave)
@@ -131,7 +131,9 @@ public:
     }
 
 private:
-    static constexpr int64_t blocks_of_thread = 8; // as many as a thread needs to be worth its while
+    // As many as a thread needs to be worth its while, and is to find in its cache when they are put down. Of several threads each
+    // waits for the last, twice for these: they have some more.
+    static constexpr int64_t blocks_of_thread = 8, blocks_of_several = 64;
     static constexpr int longest_step = INT16_MAX;
 
     int64_t room_of(int64_t begin, int64_t end) const { return list_.draft.room[end] - list_.draft.room[begin]; }

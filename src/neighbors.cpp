@@ -26,13 +26,17 @@ CellFrame::CellFrame(const Box &box, const Period &period, double cell_width, do
 }
 
 Box box_of(const Particles &particles) {
+    double x_min = INFINITY, x_max = -INFINITY, y_min = INFINITY, y_max = -INFINITY;
+    const double *const x = particles.x.data(), *const y = particles.y.data();
     // Without the images of before, which are in the arrays behind.
-    const int64_t n = particles.count;
-    if (n == 0)
-        return {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    const auto [x_low, x_high] = std::minmax_element(particles.x.begin(), particles.x.begin() + n);
-    const auto [y_low, y_high] = std::minmax_element(particles.y.begin(), particles.y.begin() + n);
-    return {*x_low, *x_high, *y_low, *y_high};
+#pragma omp simd reduction(min : x_min, y_min) reduction(max : x_max, y_max)
+    for (int64_t i = 0; i < particles.count; ++i) {
+        x_min = x[i] < x_min ? x[i] : x_min;
+        x_max = x[i] > x_max ? x[i] : x_max;
+        y_min = y[i] < y_min ? y[i] : y_min;
+        y_max = y[i] > y_max ? y[i] : y_max;
+    }
+    return {x_min, x_max, y_min, y_max};
 }
 
 void CellGrid::sort(Particles &particles, const CellFrame &frame, int threads) {
@@ -61,7 +65,7 @@ void sort_by_id(int32_t *begin, int32_t *end, const int64_t *id) {
 
 } // namespace
 
-void CellGrid::put_in_order(const int64_t *id, const Field<double> &cell) {
+void CellGrid::put_in_order(const int64_t *id, const Field<double> &cell, int threads) {
     const auto cell_of = [&](int64_t i) { return static_cast<int64_t>(cell[i]); };
     key_.clear();
     start_.assign(columns_ * rows_ + 1, 0);
@@ -73,9 +77,11 @@ void CellGrid::put_in_order(const int64_t *id, const Field<double> &cell) {
     // Filling moved each cell's start to its end, which is the next cell's start.
     std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
     start_[0] = 0;
-    for (std::size_t k = 0; k + 1 < start_.size(); ++k)
-        if (start_[k + 1] - start_[k] > 1)
-            sort_by_id(order_.data() + start_[k], order_.data() + start_[k + 1], id);
+    for_each_block(threads, columns_ * rows_, [&](int64_t, int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k)
+            if (start_[k + 1] - start_[k] > 1)
+                sort_by_id(order_.data() + start_[k], order_.data() + start_[k + 1], id);
+    });
 }
 
 void CellGrid::put_in_order_by_search(const int64_t *id) {

@@ -131,7 +131,7 @@ public:
 private:
     int64_t run_begin(int64_t cell) const; // first particle whose cell is not before this one
     int64_t row_found_from(int64_t row) const;
-    void put_in_order(const int64_t *id, const Field<double> &cell_of);
+    void put_in_order(const int64_t *id, const Field<double> &cell_of, int threads);
     void put_in_order_by_search(const int64_t *id);
     bool is_dense(int64_t n) const {
         return static_cast<double>(columns_) * static_cast<double>(rows_) <= 4.0 * static_cast<double>(n) + 4096.0;
@@ -169,7 +169,7 @@ void CellGrid::number(const CellFrame &frame, const Cell &low, const Cell &high,
     };
     if (is_dense(n)) {
         number_all(room); // exact: they are few
-        put_in_order(id, room);
+        put_in_order(id, room, threads);
     } else {
         unsorted_.resize(n);
         number_all(unsorted_);

@@ -134,8 +134,13 @@ void make_lists(World &world) {
         find_spans(world);
     const Particles &p = world.particles;
     ListOrigin &origin = world.list_origin;
-    origin.x.assign(p.x.begin(), p.x.begin() + p.count);
-    origin.y.assign(p.y.begin(), p.y.begin() + p.count);
+    origin.x.resize(p.count);
+    origin.y.resize(p.count);
+    for_each_share(world.threads, block_count(p.count), [&](int64_t begin, int64_t end) {
+        const int64_t first = begin * block_size, last = std::min(p.count, end * block_size);
+        std::copy(p.x.data() + first, p.x.data() + last, origin.x.data() + first);
+        std::copy(p.y.data() + first, p.y.data() + last, origin.y.data() + first);
+    });
     origin.plates.clear();
     for (const Plate &plate : world.walls.plates)
         origin.plates.push_back(plate.state());
