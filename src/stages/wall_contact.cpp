@@ -13,7 +13,7 @@ namespace gp::stages {
 namespace {
 
 // Where the particle is by now, for the plate as it was placed when the step began.
-Vector place_over(const World &world, const Contact &contact) {
+GP_INLINE Vector place_over(const World &world, const Contact &contact) {
     const Particles &p = world.particles;
     const Walls &w = world.walls;
     const Vector now = w.nearest_image(w.facets[contact.facet].segment, {p.x[contact.particle], p.y[contact.particle]});
