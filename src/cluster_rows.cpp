@@ -133,7 +133,7 @@ public:
 private:
     // As many as a thread needs to be worth its while, and is to find in its cache when they are put down. Of several threads each
     // waits for the last, twice for these: they have some more.
-    static constexpr int64_t blocks_of_thread = 8, blocks_of_several = 64;
+    static constexpr int64_t blocks_of_thread = 8, blocks_of_several = 32;
     static constexpr int longest_step = INT16_MAX;
 
     int64_t room_of(int64_t begin, int64_t end) const { return list_.draft.room[end] - list_.draft.room[begin]; }

@@ -54,4 +54,21 @@ template <int64_t Size = block_size, class Body> void for_each_block(int threads
     });
 }
 
+// Shares out blocks by halves, for work of which some needs all of a block: calls part(block, from, to) for the halves 0 to 1, 1 to 2
+// or, where one thread has both, 0 to 2, and then whole(block), by the thread that comes later. mark_of(block): a byte of its own, 0
+// before and after.
+template <class MarkOf, class Part, class Whole>
+void for_each_block_by_halves(int threads, int64_t blocks, const MarkOf &mark_of, const Part &part,
+                              const Whole &whole) {
+    for_each_share(threads, 2 * blocks, [&](int64_t begin, int64_t end) {
+        for (int64_t half = begin; half < end;) {
+            const int64_t block = half / 2, from = half % 2, to = end - half >= 2 ? 2 : from + 1;
+            part(block, from, to);
+            half += to - from;
+            if (to - from == 2 || __atomic_fetch_xor(&mark_of(block), uint8_t{1}, __ATOMIC_ACQ_REL) != 0)
+                whole(block);
+        }
+    });
+}
+
 } // namespace gp

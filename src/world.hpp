@@ -68,6 +68,7 @@ struct alignas(64) BlockSums {
     double kinetic = 0;        // J/m
     double densest = 0;        // largest density over the material's own
     bool unbounded = false;    // a density is not a number or out of bounds (stages.hpp)
+    uint8_t half_done = 0;     // 1: half of the block's clusters, in for_each_awake_block_by_halves
 };
 
 // Extremes of the velocities of one block, for the time step and the neighbour lists.

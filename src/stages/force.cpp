@@ -208,9 +208,8 @@ template <class Find> void find_forces(World &world, const Find &find) {
                     1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data(),  crowding};
     const bool in_reach = walls.in_reach();
     const auto clusters = c.penalty > 0 ? force_clusters<true> : force_clusters<false>;
-    for_each_awake_block(world, [&](int64_t block, int64_t begin, int64_t end) {
-        const int32_t *of_block = world.clusters.cluster_of_block.data();
-        clusters(world, view, of_block[block], of_block[block + 1]);
+    const auto find_pairs = [&](int64_t first, int64_t last) { clusters(world, view, first, last); };
+    for_each_awake_block_by_halves(world, find_pairs, [&](int64_t block, int64_t begin, int64_t end) {
         double power = 0, acceleration2 = 0;
         for (int64_t i = begin; i < end; ++i) {
             double fx = p.ax[i], fy = p.ay[i];

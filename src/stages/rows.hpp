@@ -77,6 +77,30 @@ template <class Body> void for_each_awake_cluster_run(const World &world, const 
             }
     });
 }
+// For stages that do: calls part(first, last) for the clusters of halves of blocks, and whole(block, begin, end) for all of a block's
+// particles once both halves are done.
+template <class Part, class Whole>
+void for_each_awake_block_by_halves(World &world, const Part &part, const Whole &whole) {
+    const Sleep &s = world.sleep;
+    const int32_t *of_block = world.clusters.cluster_of_block.data();
+    const Field<int64_t> &starts = world.clusters.starts;
+    const auto block_at = [&](int64_t k) { return s.some ? int64_t{s.lit[k]} : k; };
+    for_each_block_by_halves(
+        world.threads, s.some ? s.awake : world.clusters.blocks(),
+        [&](int64_t k) -> uint8_t & { return world.sums[block_at(k)].half_done; },
+        [&](int64_t k, int64_t from, int64_t to) {
+            const int64_t first = of_block[block_at(k)], clusters = of_block[block_at(k) + 1] - first;
+            part(first + from * clusters / 2, first + to * clusters / 2);
+        },
+        [&](int64_t k) {
+            const int64_t block = block_at(k);
+            if (starts.empty())
+                whole(block, block * block_size, std::min(world.particles.count, (block + 1) * block_size));
+            else
+                whole(block, starts[block], starts[block + 1]);
+        });
+}
+
 // Calls body(block, first, last) for the clusters of each block of particles that is awake, and of those asleep that these see.
 template <class Body> void for_each_seen_cluster_block(const World &world, const Body &body) {
     const int32_t *of_block = world.clusters.cluster_of_block.data();

@@ -1,4 +1,5 @@
 // Loops that are shared out: every block once, whoever does it.
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 #include <thread>
@@ -41,6 +42,32 @@ TEST(Parallel, WithPausesBetweenTheLoops) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1)); // helpers fall asleep
         ASSERT_TRUE(does_all_once(3, 4097, 20));
     }
+}
+
+// Halves of a block in two threads or in one: all of it comes after both.
+TEST(Parallel, BlocksAreDoneByHalves) {
+    for (const int threads : {1, 2, 3, 8})
+        for (const int64_t blocks : {0, 1, 4, 5, 17, 64}) {
+            std::vector<uint8_t> marks(blocks, 0);
+            std::vector<int> halves(2 * blocks, 0), wholes(blocks, 0);
+            for (int loop = 1; loop <= 2000; ++loop) {
+                std::atomic<int64_t> late{0};
+                gp::for_each_block_by_halves(
+                    threads, blocks, [&](int64_t block) -> uint8_t & { return marks[block]; },
+                    [&](int64_t block, int64_t from, int64_t to) {
+                        for (int64_t half = from; half < to; ++half)
+                            ++halves[2 * block + half];
+                    },
+                    [&](int64_t block) {
+                        late += halves[2 * block] == loop && halves[2 * block + 1] == loop;
+                        ++wholes[block];
+                    });
+                ASSERT_EQ(late, blocks) << threads << " threads";
+            }
+            EXPECT_EQ(std::count(halves.begin(), halves.end(), 2000), 2 * blocks);
+            EXPECT_EQ(std::count(wholes.begin(), wholes.end(), 2000), blocks);
+            EXPECT_EQ(std::count(marks.begin(), marks.end(), 0), blocks);
+        }
 }
 
 // Each thread of the host has helpers of its own, and they end with it.
