@@ -61,15 +61,20 @@ void pause_processor() {
 
 // True once done() is; false when patience has run out.
 template <class Done> bool look_on(const Done &done) {
-    const Clock::time_point end = Clock::now() + patience;
-    do {
+    Clock::time_point end{};
+    for (;;) {
         for (int k = 0; k < 32; ++k) {
             if (done())
                 return true;
             pause_processor();
         }
-    } while (Clock::now() < end);
-    return done();
+        // Not before: what comes at once does not wait for the clock.
+        const Clock::time_point now = Clock::now();
+        if (end == Clock::time_point{})
+            end = now + patience;
+        else if (now >= end)
+            return done();
+    }
 }
 
 // The blocks that one of a team begins with, in their order; who is done with its own takes others' from their ends, since
