@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the collapse of a column to both sides and compares it with experiments and other codes.
 
-Positions and speeds come from the HDF5 file of examples/c/both_side.c (H5MD layout), the energy ledger, the fronts and the
+Positions, speeds and the peak come from the HDF5 file of examples/c/both_side.c (H5MD layout), the energy ledger, the fronts and the
 times of computation from the summary that the program prints.
 """
 import argparse
@@ -41,6 +41,11 @@ class Frames:
 
     def positions(self, frame):
         return self.particles["position/value"][frame, :, :2]
+
+    def state(self, name, frame):
+        """A number of gp_state."""
+        values = self.file["observables/state/value"]
+        return float(values[frame, [one.decode() for one in values.attrs["names"]].index(name)])
 
     def speeds(self, frame):
         velocity = self.particles["velocity/value"][frame]
@@ -155,13 +160,6 @@ def read_summary(path):
     return values
 
 
-def peak_of(frames, time):
-    deposit = largest_connected(frames.positions(frames.at(time)), frames.spacing)
-    near_top = deposit[deposit[:, 1] > deposit[:, 1].max() - frames.spacing, 0]
-    x = np.arange(near_top.min() - frames.spacing, near_top.max() + frames.spacing, frames.spacing / 8)
-    return float(np.nanmax(surface(deposit, frames.spacing, x)))
-
-
 def run_out(frames):
     """(x - L0)/L0, mean of both sides, of the points that have 5 % of the mass outside of them, at the end."""
     x = frames.positions(frames.at(frames.times[-1]))[:, 0]
@@ -171,7 +169,7 @@ def run_out(frames):
 
 def table(frames, summary):
     """Rows of quantity, value, what to compare it with."""
-    peak = peak_of(frames, PEAK_TIME) / frames.width
+    peak = frames.state("peak_height", frames.at(PEAK_TIME)) / frames.width
     rows = [("peak y/L at 0.42 s", f"{peak:.3f}",
              f"experiment {EXPERIMENT_PEAK} ({100 * (peak / EXPERIMENT_PEAK - 1):+.1f} %; Xu et al. 2017 in Jin et al. 2021)"),
             ("", "", "MPM, VOF and DEM codes with instant release 0.41-0.43")]

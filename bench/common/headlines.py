@@ -8,8 +8,8 @@ A report marks a number, as it prints it, where it prints it; once in all report
 
 which is <!--n=validation.both_side.peak-->0.410<!--/n--> in docs/validation.md; most are in the table that ends it (section(), of the rows of
 bench/validation/repeated.py). A report written by hand has the marks typed in. Any other page says <!--n:validation.both_side.peak--> ... <!--/n-->, and scripts/numbers writes the number in between. There a format may follow
-the name: <!--n:validation.both_side.peak .2f--> makes 0.41 of it, "abs .0f" makes 12 % of -12.1 %. What is no number in the report (a
-dash, where a run is missing) is an error, and the page keeps what it has.
+the name: <!--n:validation.both_side.peak .2f--> makes 0.41 of it, "abs .0f" makes 12 % of -12.1 %; "text" asks for words, as
+they are. What is no number in the report (a dash, where a run is missing) is an error, and the page keeps what it has.
 
 Markdown shows nothing of the marks, but in code, and where they begin a line, which makes it a line of HTML: neither is allowed. Each number
 that is marked is used by a page. tests/docs/numbers_test.py holds the pages to all this.
@@ -48,6 +48,10 @@ class Number:
 
     def written(self, how: str | None) -> str:
         """As a page wants it."""
+        if how == "text":
+            if not re.search(r"\w", self.text):
+                raise ValueError(f"{self.page} has {self.text!r}, which says nothing")
+            return self.text
         value = VALUE.fullmatch(self.text)
         if value is None:
             raise ValueError(f"{self.page} has {self.text!r}, which is no number")

@@ -90,22 +90,24 @@ def best_of(curves: dict[str, list[tuple[int, float, float]]]) -> list[tuple[int
 
 
 def figure(data: dict[str, Any], path: Path) -> None:
-    """Error of one run, peak or run-out whichever is larger, against CPU time: ours, the MPM's, and the recommended settings."""
+    """Error of one run, peak or run-out whichever is larger, against CPU time: ours, the MPM's, and the recommended settings, these
+    without sleep, too."""
     import matplotlib.pyplot as plt
     from matplotlib.ticker import FuncFormatter, NullLocator
     from peers import SAME, second_machine
-    from plotting import finish
+    from plotting import finish, legend_above
 
     fig, axes = plt.subplots(figsize=(9.2, 6.2), layout="constrained")
     best, ours, theirs, star = best_of(aims_rows.curves(data["rows"])), "#0072B2", "0.35", "#D55E00"
     axes.plot([cpu for _, cpu, _ in best], [100 * error for *_, error in best], color=ours, marker="o", ms=7, lw=3,
-              label="granperi, best of horizons 3 and 4")
+              label="granperi, sleep = 1, best of horizons 3 and 4")
     peak, runout = converged("a125")
     for name, style in ((SAME, "-"), ("tuned", "--")):
         points = data["mpm"][name]
         errors = [100 * max(abs(r / runout - 1), abs(p / peak - 1) if p is not None else 0) for _, _, p, r in points]
+        alone = "" if all(p is not None for _, _, p, _ in points) else " (run-out alone)"
         axes.plot([cpu for _, cpu, _, _ in points], errors, color=theirs, marker="^", ms=8, ls=style,
-                  label=f"MPM ({data['mpm']['code'].split()[0]}), same law, {name}")
+                  label=f"MPM ({data['mpm']['code'].split()[0]}), same law, {name}{alone}")
         for (n, cpu, _, _), error in zip(points, errors):
             axes.annotate(f"L/{n}", (cpu, error), textcoords="offset points", color=theirs, fontsize=13, xytext=(5, 8))
         if name == SAME:  # as long as it takes on the slower of two machines
@@ -114,6 +116,8 @@ def figure(data: dict[str, Any], path: Path) -> None:
                                label="the same on a slower machine")
     for name, of in data["levels"].items():
         error = 100 * max(of["peak_error_a125"], of["runout_error_a125"])
+        axes.plot([of["cpu_seconds"], of["cpu_seconds_awake"]], [error, error], ":", color=star, lw=1.5, zorder=3)
+        axes.plot(of["cpu_seconds_awake"], error, "*", color="white", ms=18, mec=star, mew=1.6, zorder=4)
         axes.plot(of["cpu_seconds"], error, "*", color=star, ms=24, mec="white", zorder=4)
         axes.annotate(f"{name}\n{of['cpu_seconds']:.2g} s, {error:.1f} %", (of["cpu_seconds"], error), textcoords="offset points",
                       xytext=(-14, -34), ha="right", color="#B04A00", weight="bold")
@@ -126,7 +130,8 @@ def figure(data: dict[str, Any], path: Path) -> None:
     axes.grid(color="0.92")
     axes.set_axisbelow(True)
     axes.plot([], [], "*", color=star, ms=18, ls="none", label="recommended settings")
-    axes.legend(loc="upper right")
+    axes.plot([], [], "*", color="white", ms=15, mec=star, mew=1.6, ls="none", label="the same without sleep")
+    legend_above(fig, axes, 2)
     finish(fig, path)
 
 

@@ -1,8 +1,8 @@
 """The runs behind the aims: which collapses at which spacings and horizons, what came out, and their tables in docs/settings.md.
 
-A row of bench/performance/aims.json: scene, horizon, spacings over its width, runs; CPU s to 1 s and to rest, of the median run ("cpu_awake": with sleep = 0, to 1 s); "peak"
-and "runout": bias, its two standard errors, the error of one run, the largest one. Of the errors, relative, all but the first are
-above 0.
+A row of bench/performance/aims.json: scene, horizon, spacings over its width, runs; CPU s to 1 s and to rest, of the median run
+("cpu_awake": to 1 s with sleep = 0); "peak" and "runout": bias, its two standard errors, the error of one run, the largest one. Of the
+errors, relative, all but the first are above 0.
 """
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ WHAT = ("peak", "runout")
 REPEATED = {(4, 16): ("width_16", ("cpu", "peak")), (4, 24): ("width_24", ("cpu", "peak", "one")),
             (4, 32): ("width_32", ("cpu", "peak", "one", "run_out")), (4, 40): ("width_40", ("cpu", "peak")),
             (3, 32): ("horizon_3", ("peak", "run_out"))}
+TOLD = ("standard", "fine")  # aims whose single runs other pages repeat
 
 
 def measure() -> list[Row]:
@@ -117,8 +118,13 @@ def single_runs(levels: dict[str, dict[str, Any]], rows: list[Row]) -> str:
              "|---|" + "---:|" * 9]
     for name, level in levels.items():
         row = chosen(rows, level, name, "a125")
-        cells = [part for what in WHAT for part in (_percent(row[what][2]), _percent(row[what][3]),
-                                                    str(row[f"{what}_above"][f"{level['aim']:g}"]))]
-        lines.append(f"| {name}: {100 * level['aim']:.0f} % | {level['horizon']} | {row['spacings']} | {row['runs']} | "
-                     + " | ".join(cells) + " |")
+
+        def told(what: str, text: str) -> str:
+            return headline(f"settings.{name}.{what}", text) if name in TOLD else text
+
+        cells = [told("runs", str(row["runs"]))]
+        for what in WHAT:
+            cells += [told(what, _percent(row[what][2])), _percent(row[what][3]),
+                      told(f"{what}_beyond", str(row[f"{what}_above"][f"{level['aim']:g}"]))]
+        lines.append(f"| {name}: {100 * level['aim']:.0f} % | {level['horizon']} | {row['spacings']} | " + " | ".join(cells) + " |")
     return "\n".join(lines)

@@ -24,13 +24,6 @@ from run import cheapest_first
 
 figure = functools.partial(document.figure, "performance")
 
-COLLAPSE_CAPTION = (
-    "What CPU time buys, a = 1.25: error of one run at 1 s (peak or run-out of 90 % of the mass, whichever is larger) against its CPU "
-    "time, of this library, of the explicit MPM code Matter with the same law, and of the recommended settings. All errors are against our "
-    "converged solution, with which that of the MPM agrees within 1 % in the run-out and 2 % in the peak. The sound speed is 10 m/s in both; "
-    "tuned: 7 m/s and a longer time step. The grey band is from one machine to another on which the MPM code was timed: ours is a third "
-    "one. From aims.json, by bench/performance/aims.py"
-)
 OTHERS_CAPTION = "Error of one run against CPU time: a = 5 (L/dl = 8 to 32) and one side (L/dl = 20 to 80). Bars: two standard errors"
 EXACT_CAPTION = (
     "Exact solutions: error against CPU time; along a line the resolution doubles. Symbols without a line: resolution 20, "
@@ -72,13 +65,14 @@ or run-out whichever is larger).
 ### Other codes
 
 Runs of the same column with the same μ(I) law, instant release, with public codes
-([references.py](../bench/validation/references.py)): CPU s on {ANOTHER_MACHINE}, one thread, peak and front at
-3 s. Matter's sound speed is 10 m/s, as ours by default, ten times the fastest flow; "E = 1e6 Pa" is a stiffer one. Their errors are against our converged solution, so that they say how far the codes are apart, not who is right; their
-front is compared with our tips.
+([references.py](../bench/validation/references.py)), one thread, peak and front at 3 s. CPU s: ours on the machine of [this
+page](#how-these-numbers-were-made), others on {ANOTHER_MACHINE}. Matter's sound speed is
+10 m/s, as ours by default, ten times the fastest flow; "E = 1e6 Pa" is a stiffer one. Their errors are against our converged solution,
+so that they say how far the codes are apart, not who is right; their front is compared with our tips.
 
 {sections.peers(collection)}
 
-Throughput of public particle codes on the same machine ([peers.py](../bench/performance/peers.py)), one thread:
+Throughput of public particle codes ([peers.py](../bench/performance/peers.py)), one thread, machines as above:
 
 {sections.throughput(collection)}
 
@@ -103,19 +97,17 @@ At the same spacing; in brackets horizon 4. Bias, but in the last column one run
 ### The cheapest settings
 
 The cheapest setting of the default scheme with which one run of a = 1.25 errs by less than the aim, as
-do all finer ones of the same setting; without the horizons with which the error of an exact solution grows on refinement. Options
-not named are the library's.
+do all finer ones of the same setting; without the horizons with which the error of an exact solution grows on refinement to more
+than {100 * sections.COUNTS:g} %. Options not named are the library's.
 
 {sections.recommended(collection)}
 
-The library's own `horizon` stays at 4 dl. 3 dl costs less at the same error in collapses of beads, and was tried as the
-default; what it loses is robustness, which counts for more in a default. Coarse deposits of strong friction come to rest less
-reliably ([stability.md](stability.md#coarse-deposits-and-the-horizon)). Of the tests of extreme scenes nine failed with it (once,
-by hand): three rows of grains on a rough floor still moved by 0.04 dl from 1 to 2 s, and two and two grains that met in free
-space left with up to 7 times their kinetic energy, where with 4 dl none gain any. With 24 neighbours that bear weight in place
-of 44, four grains are as much of a neighbourhood as a quarter plane is, and the operators cannot tell them apart. On the
-lattice jittered by 0.1 dl the gradient is of order 1.6 (4 dl: above 1.9). Who wants most for the time in a collapse sets
-`horizon = 3`; 2.5 dl does as well there, but not in the exact solutions, where refinement makes it worse.
+The library's own `horizon` stays at 4 dl. 3 dl was tried as the default; what it loses is robustness, which counts for more
+there. Deposits of few spacings come to rest less reliably ([stability.md](stability.md#coarse-deposits-and-the-horizon)). Of the tests
+of extreme scenes nine failed with it (once, by hand): three rows of grains on a rough floor still moved by 0.04 dl from 1 to 2 s, and
+two and two grains that met in free space left with up to 7 times their kinetic energy, where with 4 dl none gain any. With 24
+neighbours that bear weight in place of 44, four grains are as much of a neighbourhood as a quarter plane is, and the operators cannot
+tell them apart. {sections.orders(collection)}
 
 ## Error against run time: exact solutions
 
@@ -183,7 +175,7 @@ hand.
 
 {beside.lead(collection)}
 
-{figure("collapse", {"collapse"}, COLLAPSE_CAPTION)}
+{figure("collapse", {"collapse"}, beside.caption(collection))}
 
 ## In short
 

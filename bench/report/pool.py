@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import datetime
 import json
 import math
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,13 @@ from granperi import _report_runs as runs
 import granperi
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "common"))
+
+from batch import commit_of  # noqa: E402
+from computer import processor  # noqa: E402
+
+# The first rows do not say of what they are.
+ENTERED = "c5e310b, f22daf8 and 7ec88e9 of 2026-11-26"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,6 +55,19 @@ def read(path: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
 
 
+def origin(rows: list[dict[str, Any]]) -> str:
+    """Of which sources, machines and days the runs are."""
+    said, silent = [row for row in rows if "commit" in row], sum("commit" not in row for row in rows)
+    parts = []
+    if said:
+        commits, machines, days = (sorted({row[name] for row in said}) for name in ("commit", "machine", "date"))
+        parts.append(f"{len(said)} runs are of commit {', '.join(commits)}, on {' and '.join(machines)}, "
+                     f"{' to '.join(sorted({days[0], days[-1]}))}")
+    if silent:
+        parts.append(f"{silent} runs do not say of which sources, machine and day they are: the commits {ENTERED} entered them")
+    return "; ".join(parts) + "."
+
+
 def _plain(value: Any) -> Any:
     if isinstance(value, dict):
         return {name: _plain(one) for name, one in value.items()}
@@ -59,6 +81,7 @@ def main() -> None:
     parser.add_argument("pool", type=Path)
     parser.add_argument("--only", nargs="+", choices=STUDIES, default=list(STUDIES), help="scenes [all]")
     options = parser.parse_args()
+    about = {"commit": commit_of(HERE), "machine": processor(), "date": datetime.date.today().isoformat()}
     done = {(row["scene"], row["resolution"], row["seed"]) for row in read(options.pool)}
     # The runs of each resolution are spread over the whole time, so that what else the machine does is in the CPU times of all.
     spread = sorted(((seed - 0.5) / seeds, name, resolution, seed) for name in options.only
@@ -68,7 +91,7 @@ def main() -> None:
             continue
         scene = granperi.Scene.read(HERE / f"{name}.toml")
         one, _ = runs.measure(scene, STUDIES[name].length / resolution, seed, scene.run.end, QUANTITIES.get(name, {}))
-        row = _plain({"scene": name, "resolution": resolution, **dataclasses.asdict(one)})
+        row = _plain({"scene": name, "resolution": resolution, **dataclasses.asdict(one), **about})
         del row["spacing"]
         with options.pool.open("a") as file:
             file.write(json.dumps(row) + "\n")

@@ -183,12 +183,13 @@ def text(drawn: list[coverage.Drawn], later: list[coverage.Drawn], rows: list[di
     seconds = sum(row["cpu_seconds"] for row in rows)
     held_range, narrow_range = by_chance(drawn)
     growing_table, grown_least, grown_most, four_held = growing(values, draws)
-    choice_table, left_out_table = choices(values, max(2, draws // 4))
+    fewer = max(2, draws // 4)
+    choice_table, left_out_table = choices(values, fewer)
     return f"""# How often the errors of a report hold
 
 `granperi.report` states what a run of a scene errs by, from runs of that scene alone ([How sure is my result?](guide/report.md)).
 Written by `bench/report/report.py`; the {len(rows)} runs, {seconds:.0f} CPU s, are in `bench/report/pool.jsonl`, made by
-`bench/report/pool.py`.
+`bench/report/pool.py`. {pool.origin(rows)}
 
 - {n_cases} cases (columns with a = 1.25 and 5 and a hopper, five quantities, four ladders of three or four spacings), {draws} reports
   of each, with {coverage.SEEDS} runs of each spacing, drawn from the pool. The truth is the mean of the finest runs, which no report sees.
@@ -245,8 +246,9 @@ Shares of one scene are those of five quantities: with as many other ones of the
 
 ## Other choices
 
-\\*: taken. With lower orders the errors hold more often and are wider, with higher ones the other way round; in between not much
-depends on them.
+{fewer} reports of each case, in place of the {draws} above: so the choice that is taken has other shares here by some per cent. \\*: taken.
+With lower orders the errors hold more often and are wider, with higher ones the other way round; in between not
+much depends on them.
 
 {choice_table}
 
@@ -259,7 +261,7 @@ twentieth to a third of a spacing for lengths (a = 1.25 holds in 94 %, for it th
 last or the largest difference of the means; the 90 % of the mixture in place of a multiple of its root mean square; a common order, size or
 share without a power for all quantities of a report; lower orders where the differences do not shrink, higher ones where they shrink fast.
 
-With other numbers of runs of each spacing (the mean: held, at most 3 ×): {seeds(values, max(2, draws // 4))}.
+With other numbers of runs of each spacing (the mean: held, at most 3 ×; {fewer} reports of each case): {seeds(values, fewer)}.
 
 An error that goes exactly with an order of 1 is at the edge: of made-up reports with it 95 to 98 % hold where chance is small, 85 %
 where it is not; with orders of 1.25 to 2 it is 96 to 100 % (as in `tests/bindings/python/test_report_statistics.py`). An error of

@@ -33,7 +33,7 @@ NUMERICAL = (
     # The scheme's own is 0.95 where little moves, 0.8 where much does.
     Coefficient("cfl", "--cfl", 0.95, (0.475, 1.4, 1.9), "", 0.475, 1.9, "0 (the scheme's own)"),
     Coefficient(
-        "horizon", "--horizon", 4, (2, 2.5, 3, 5, 6), "dl", 2.5, 6, "4; 3 for peaks, where few grains need not rest",
+        "horizon", "--horizon", 4, (2, 2.5, 3, 5, 6), "dl", 2.5, 6, "4; 3 for peaks, where more than some 8 spacings lie over the width",
     ),
     Coefficient("collision_distance", "--collision-distance", 0.9, (0, 0.45, 0.7, 0.8, 1), "dl", 0.45, 1, "0.9"),
     Coefficient("zero_energy_penalty", "--penalty", 0.02, (0, 0.005, 0.01, 0.04, 0.1), "rho c0 / dl", 0.01, 0.04, "0.02"),

@@ -2,15 +2,22 @@
 from __future__ import annotations
 
 import runs
+import verdicts
+from coefficients import CRITERION
 from markdown import NONE, fixed, percent
 from measures import mean
 from results import Collection
+from sections import coarse_at_rest
 
 NAMED = {"peak": "peak", "bulk": "run-out of 90 % of the mass", "spread": "run-out of 98 % of the mass"}
 
+LARGEST_DELTA = 1e-2  # 1/s, with which the implicit scheme is a check: with more it creeps within seconds
+
 
 def rows(results: Collection) -> list[tuple[str, str, str]]:
-    found = [*_collapse(results), *_implicit(results)]
+    found = [*_collapse(results), *_implicit(results), *_coarse(results)]
+    found.append(("criterion.beyond", "half or twice of it changes the peak or the run-out of 90 % of the mass by more than "
+                  f"{100 * CRITERION:g} %", verdicts.beyond(results) or NONE))  # fmt: skip
     minutes = sum(result.cpu for result in results.found.values()) / 60
     return [(f"stability.{name}", what, text) for name, what, text in found] + [
         ("stability.cpu_minutes", "CPU minutes of all runs", fixed(minutes, 0))
@@ -35,17 +42,26 @@ def _collapse(results: Collection) -> list[tuple[str, str, str]]:
 
 
 def _implicit(results: Collection) -> list[tuple[str, str, str]]:
-    """CPU time per simulated second, of the deposits that are looked at while they rest."""
-    scheme = runs.SCHEMES["default"]
-    default = [rest for rest in runs.rests_of(scheme) if rest.resolution == 16 and rest.cfl == scheme.own_cfl]
-    base = [result.cpu / rest.end for rest in default if (result := results(rest.run))]
-    costs = [
-        result.cpu / rest.end / base[0]
-        for rest in runs.rests_of(runs.SCHEMES["implicit"])
-        if base and rest.resolution == 16 and (result := results(rest.run))
-    ]
-    least, most = (f"{one:.0f}" for one in (min(costs), max(costs))) if costs else (NONE, NONE)
+    """CPU time of a collapse to 3 s, over that of the default in as much of its run to a minute, whose steps cost the same throughout."""
+    scheme, implicit = runs.SCHEMES["default"], runs.SCHEMES["implicit"]
+    default = [rest for rest in runs.rests_of(scheme) if rest.resolution == implicit.resolution and rest.cfl == scheme.own_cfl]
+    base = [result.cpu_to(runs.CREEP_END) for rest in default if (result := results(rest.run))]
+    deltas = [delta for delta in implicit.deltas if delta <= LARGEST_DELTA]
+    costs = {delta: result.cpu / base[0] for delta in deltas if base and (result := results(runs.creep("implicit", delta=delta)))}
+    of = ((max(deltas), "least"), (min(deltas), "most"))
     return [
-        ("implicit.cost_least", "implicit scheme, L/dl = 16: CPU time over the default's, by delta: least", least),
-        ("implicit.cost_most", "most", most),
-    ]
+        (f"implicit.cost_{name}", f"implicit scheme, L/dl = {implicit.resolution}, to {runs.CREEP_END:g} s, delta {delta:g}: CPU time over "
+         "the default's", fixed(costs.get(delta), 0))
+        for delta, name in of
+    ]  # fmt: skip
+
+
+def _coarse(results: Collection) -> list[tuple[str, str, str]]:
+    """Whether coarse heaps come to rest, by the horizon."""
+    found = []
+    for resolution in runs.COARSE_RESOLUTIONS:
+        for horizon in (3, 4):
+            known = coarse_at_rest(results, resolution, horizon)
+            what = f"coarse deposits at rest, L/dl = {resolution}, horizon {horizon}, of {known[1] if known else NONE}"
+            found.append((f"coarse.width_{resolution}_horizon_{horizon}", what, f"{known[0]}" if known else NONE))
+    return found

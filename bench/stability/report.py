@@ -168,10 +168,11 @@ The regularised law has no yield: under GP_STRESS_IMPLICIT all of the deposit cr
 ### Coarse deposits and the horizon
 
 Of {runs.MORE_SEEDS} collapses of 40 (L/dl = 8) and 160 (16) particles those that `gp_state.at_rest` sees at rest before 1 s and for
-{runs.RESTED:g} s. Large grains have the friction mu_2 at any rate: steep heaps, with single grains on their flanks. A narrow
-horizon holds a grain by few neighbours.
+{runs.RESTED:g} s. Large grains have the friction mu_2 at any rate: steep heaps, with single grains on their flanks.
 
 {sections.coarse(collection)}
+
+{sections.coarse_in_words(collection)}
 
 ## Forty seconds of shear
 

@@ -149,6 +149,24 @@ def coarse(results: Collection) -> str:
     return table(["L/dl", "grain diameter (m)", *(f"horizon {h:g}" for h in runs.COARSE_HORIZONS)], rows) if rows else ""
 
 
+def coarse_at_rest(results: Collection, resolution: int, horizon: float) -> tuple[int, int] | None:
+    """Of all diameters: how many come to rest, and of how many."""
+    found = [results(runs.coarse(resolution, d, horizon)) for d in runs.COARSE_DIAMETERS]
+    if not all(found):
+        return None
+    return round(sum(share_at_rest(r) for r in found) * runs.MORE_SEEDS), len(found) * runs.MORE_SEEDS
+
+
+def coarse_in_words(results: Collection) -> str:
+    """Horizon 3 beside the default."""
+    lines = []
+    for resolution in runs.COARSE_RESOLUTIONS:
+        three, four = (coarse_at_rest(results, resolution, h) for h in (3.0, 4.0))
+        if three and four:
+            lines.append(f"with L/dl = {resolution} {four[0]} of {four[1]} rest with horizon 4, {three[0]} with 3")
+    return f"All diameters together: {'; '.join(lines)}." if lines else ""
+
+
 def pressure_rows(results: Collection) -> list[tuple[str, Result]]:
     tried = [(f"{s.label}, L/dl = {s.resolution}", runs.creep(s.key)) for s in present(results)]
     tried += [(f"default, horizon {h:g} dl", runs.rough_horizon(h)) for h in runs.ROUGH_HORIZONS]

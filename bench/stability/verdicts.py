@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 import runs
 import theory
 from coefficients import CRITERION, NUMERICAL
@@ -94,6 +96,20 @@ def _criterion_in_short(results: Collection) -> str:
     return f"**{within}{', but for ' + ', '.join(beyond) if beyond else ': peak and run-out of 90 % of the mass'}.**"
 
 
+def beyond(results: Collection) -> str:
+    """Names and values of what changes the headlines by more than the criterion, for the pages."""
+    found = {
+        (c.name, value): None
+        for c in NUMERICAL
+        if c.in_criterion
+        for column in HEADLINE
+        for value, one in changes(results, c, 32, column)
+        if abs(one.value) > CRITERION
+    }
+    names = dict.fromkeys(name for name, _ in found)
+    return ", ".join(f"`{name}` {' and '.join(f'{value:g}' for own, value in sorted(found) if own == name)}" for name in names)
+
+
 def _scatter(results: Collection) -> str:
     base = results(runs.base_ensemble())
     if not base:
@@ -129,13 +145,26 @@ def _rest(results: Collection) -> str:
     )
 
 
+def own_steps(results: Collection) -> tuple[float, float] | None:
+    """The library's own, least and most on average between two rows of a collapse, in dl / wave speed."""
+    scheme = runs.SCHEMES["default"]
+    result = results(runs.creep("default"))
+    if not result:
+        return None
+    series = result.tables["series"]
+    steps = np.diff(series["time"]) / np.diff(series["steps"])
+    unit = runs.WIDTH / scheme.resolution / (scheme.wave_factor * result.summary["sound_speed"])
+    return float(steps.min() / unit), float(steps.max() / unit)
+
+
 def _step(results: Collection) -> str:
-    step, layer = results(runs.limit("default", "collapse")), results(runs.limit("default", "layer"))
-    if not step or not layer:
+    step, layer, own = results(runs.limit("default", "collapse")), results(runs.limit("default", "layer")), own_steps(results)
+    if not step or not layer or not own:
         return ""
     return (
         f"The time step could be longer: counted in dl / wave speed a layer stays calm up to {layer.summary['stable']:.2f}, a collapse up to "
-        f"{step.summary['stable']:.2f}; the library allows 1.93 and takes 0.95, of quick motion 0.8."
+        f"{step.summary['stable']:.2f}; the library's own are {own[0]:.2f} in quick motion to {own[1]:.2f} at rest, on average from one row "
+        "of a collapse to the next."
     )
 
 

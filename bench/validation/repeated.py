@@ -22,11 +22,12 @@ def rows(results: Collection) -> list[tuple[str, str, str]]:
 
 def _both_side(results: Collection) -> list[tuple[str, str, str]]:
     default, walls = (results(runs.resolution_run(scheme, 32)) for scheme in ("default", "walls"))
-    top, beside = (peak(result) if result else None for result in (default, walls))
+    top, beside, at_once = (peak(result) if result else None for result in (default, walls, results(runs.code_run(32))))
     error = 100 * abs(default.summary["energy_error_share"]) if default else None
     return [
         ("both_side.peak", "a = 1.25, L/dl = 32, default scheme: peak y/L at 0.42 s", fixed(top)),
         ("both_side.peak_side_walls", f"the same between walls {runs.CHANNEL_WIDTH:g} m apart", fixed(beside)),
+        ("both_side.peak_at_once", "without walls, released at once as in other codes", fixed(at_once)),
         ("both_side.experiment", "the experiment", f"{ref.EXPERIMENT_PEAK}"),
         ("both_side.ledger_error", "error of the default's energy ledger, of E0", NONE if error is None else f"{error:.2g} %"),
     ]

@@ -342,8 +342,9 @@ def in_short(results: Collection) -> str:
     default, walls = (results(runs.resolution_run(key, 32)) for key in ("default", "walls"))
     if default:
         text = (
-            f"A column of glass beads, a = 1.25, comes to rest {fixed(peak(default))} L high, {percent(peak(default, 3.0), peak(default), 2)} "
-            f"from 0.42 to 3 s, with 90 % of its mass within {fixed(run_out_at(default, 1.0), 2)} L0 of where its feet were"
+            f"A column of glass beads, a = 1.25, comes to rest {fixed(peak(default))} L high (its height changes by "
+            f"{percent(peak(default, 3.0), peak(default), 2)} from 0.42 to 3 s), with 90 % of its mass within "
+            f"{fixed(run_out_at(default, 1.0), 2)} L0 of where its feet were"
         )
         instant = results(runs.code_run(32))
         if instant:

@@ -25,7 +25,8 @@ module granperi_raw
         !! destroyed, not stepped
     integer(c_int32_t), parameter :: GP_E_UNSUPPORTED = -6
         !! the option exists, but this build or version does not have it
-    integer(c_int32_t), parameter :: GP_E_VERSION = -7 !! a struct or file comes from a newer version
+    integer(c_int32_t), parameter :: GP_E_VERSION = -7
+        !! a struct or file comes from a newer version, or a checkpoint is in another format
     integer(c_int32_t), parameter :: GP_E_INTERNAL = -8
         !! a defect of the library: please report the text of gp_last_error()
 
@@ -70,11 +71,11 @@ module granperi_raw
             !! plate or another column (not with GP_DENSITY_NUMBER, nor with a time_step). The log says so and what it
             !! costs. Else at least 1e-9 [0]
         real(c_double) :: cfl
-            !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own, 0.45
-            !! of what is stable with the horizon in use (horizon 2.5: 0.59, 3: 0.71, 4: 0.95, 6: 1.42), down to 0.38 of
-            !! it where the material moves by more than 0.06 dl in a step and where a blow is foreseen; of the schemes
-            !! of [1] 0.2. Else 1e-6 .. 8; beyond gp_state.dt_limit (at least 1.18, 1.44, 1.93, 2.88 by the default
-            !! coefficients, 1.0 in the schemes of [1]) it is refused at the first step, but see allow_unstable_step [0]
+            !! time step over dl / (elastic wave speed), with GP_STRESS_REGULARIZED dl / c0; 0: the scheme's own
+            !! (horizon 2.5: 0.59, 3: 0.71, 4: 0.95, 6: 1.42), by the default coefficients half of gp_state.dt_limit,
+            !! down to 0.42 of it where the material moves by more than 0.06 dl in a step and where a blow is foreseen;
+            !! of the schemes of [1] 0.2. Else 1e-6 .. 8; beyond gp_state.dt_limit (for these horizons 1.18, 1.44, 1.93,
+            !! 2.88, in the schemes of [1] 1.0) it is refused at the first step, but see allow_unstable_step [0]
         real(c_double) :: time_step
             !! s, fixed; 0: adaptive, by the smallest of the limits GP_DT_SOUND to GP_DT_VISCOSITY. Beyond
             !! gp_state.dt_limit: refused at the first step, but see allow_unstable_step [0]
@@ -329,8 +330,8 @@ module granperi_raw
         !! elastic waves: cfl dl / wave speed; less where the scene's materials differ in density: the lighter is pushed
         !! by the stiffness of the heavier (from a ratio of 9 to 10 on)
     integer(c_int32_t), parameter :: GP_DT_FLOW = 2
-        !! relative motion: of the scheme's own step .06 spacings, but not below .38 of what is stable; of any, a
-        !! quarter spacing per step
+        !! relative motion: of the scheme's own step .06 spacings, but not below .42 of gp_state.dt_limit
+        !! (gp_config.cfl); of any, a quarter spacing per step
     integer(c_int32_t), parameter :: GP_DT_PLATE = 3 !! the inertia of a loaded plate
     integer(c_int32_t), parameter :: GP_DT_VISCOSITY = 4 !! bulk_viscosity, zero_energy_penalty or density_diffusion
     integer(c_int32_t), parameter :: GP_DT_DEMANDED = 5 !! gp_config.time_step
@@ -577,12 +578,13 @@ module granperi_raw
             type(c_ptr) :: answer
         end function
 
-        !> 1 if this build has the named feature, else 0. Features: "hdf5", "openmp", and the instruction set that the
-        !> engine runs with, one of "x86-64", "x86-64-v2", "x86-64-v3" (AVX2, FMA), "x86-64-v4" (AVX-512), "generic"
-        !> (another processor). NULL or an unknown name gives 0. A build for x86-64 has the engine twice, for x86-64 and
-        !> x86-64-v3, and takes what the processor has; their results differ in the last bits (docs/trust.md). The
-        !> environment variable GRANPERI_LEVEL, set to one of the names before the first call, asks for one; if it is
-        !> not the one that runs, gp_create and gp_load are GP_E_UNSUPPORTED.
+        !> 1 if this build has the named feature, else 0. Features: "hdf5", "openmp", "mpi" (gp_mpi.h: the library
+        !> granperi-mpi), and the instruction set that the engine runs with, one of "x86-64", "x86-64-v2", "x86-64-v3"
+        !> (AVX2, FMA), "x86-64-v4" (AVX-512), "generic" (another processor). NULL or an unknown name gives 0. A build
+        !> for x86-64 has the engine twice, for x86-64 and x86-64-v3, and takes what the processor has; their results
+        !> differ in the last bits (docs/trust.md). The environment variable GRANPERI_LEVEL, set to one of the names
+        !> before the first call, asks for one; if it is not the one that runs, gp_create and gp_load are
+        !> GP_E_UNSUPPORTED.
         function gp_has_feature(name) bind(c, name="gp_has_feature") result(answer)
             import
             character(kind=c_char), intent(in), optional :: name(*)
@@ -826,8 +828,8 @@ module granperi_raw
             integer(c_int32_t) :: answer
         end function
 
-        !> The state at this instant; state->struct_size has to be set. It costs about as much as a time step; a second
-        !> call without a step between costs nothing.
+        !> The state at this instant; state->struct_size has to be set. It costs as much as 1.5 to 2.5 time steps (10
+        !> 000 to 600 particles; with fewer more: 5 with 160); a second call without a step between costs nothing.
         function gp_get_state(sim, state) bind(c, name="gp_get_state") result(answer)
             import
             type(c_ptr), value :: sim
@@ -836,9 +838,9 @@ module granperi_raw
         end function
 
         !> The same with these parts only, GP_STATE_... bits or 0: the fields of the others are NaN. Clock, ledger,
-        !> momentum, speeds, max_pressure, at_rest, counters and the centre of mass are always there: these cost 2 to 5
-        !> % of a time step, GP_STATE_DEPOSIT 50 to 100 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT up to 55 % where
-        !> all flows.
+        !> momentum, speeds, max_pressure, at_rest, counters and the centre of mass are always there: these cost 4 to 5
+        !> % of a time step, GP_STATE_DEPOSIT 60 to 150 %, GP_STATE_MARKS 10 to 20 %, GP_STATE_DRIFT 50 to 75 % where
+        !> all flows (from 600 particles on).
         function gp_get_state_parts(sim, parts, state) bind(c, name="gp_get_state_parts") result(answer)
             import
             type(c_ptr), value :: sim

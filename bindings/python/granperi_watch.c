@@ -74,7 +74,7 @@ static int granperi_has_reached(gp_sim *sim, double due) {
     return due < HUGE_VAL && gp_get_clock(sim, &time, &dt, NULL) >= 0 && time + 1e-9 * dt >= due;
 }
 
-/* Energies and rest alone cost 2 to 5 % of a step. */
+/* Energies and rest alone cost 5 % of a step. */
 static int granperi_is_at_rest(gp_sim *sim) {
     gp_state state;
     state.struct_size = sizeof state;

@@ -53,6 +53,9 @@ def check_rules():
     ):
         assert any(what in fault for fault in found(wrong)), (what, found(wrong))
     assert any("no number" in fault for fault in found(right, report.replace("0.410", "–"))), "a dash is no number"
+    words = found("It is <!--n:v.words text-->`a` 1, `b` 2<!--/n-->.\n", headlines.headline("v.words", "`a` 1, `b` 2"))
+    assert words == ["docs/v.md:1: a mark begins the line: Markdown takes that for HTML"], words
+    assert any("says nothing" in fault for fault in found("It is <!--n:v.words text-->x<!--/n-->.\n", headlines.headline("v.words", "–")))
     assert any("is that of docs/v.md, too" in fault for fault in found(right, report + report)), "each number has one source"
 
 

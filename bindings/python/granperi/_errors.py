@@ -55,7 +55,7 @@ class UnsupportedError(Error, NotImplementedError):
 
 
 class VersionError(Error, RuntimeError):
-    """A struct or file comes from a newer version of the library."""
+    """A struct or file comes from a newer version of the library, or a checkpoint is in another format."""
 
     status = lib.GP_E_VERSION
 

@@ -13,7 +13,7 @@ from ._timer import Timer
 if TYPE_CHECKING:
     from ._simulation_reading import SimulationReading
 
-REST_EVERY = 10  # steps between looks at rest, each 2 to 5 % of a step
+REST_EVERY = 10  # steps between looks at rest, each 5 % of a step
 
 
 @contextlib.contextmanager

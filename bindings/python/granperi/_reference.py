@@ -15,12 +15,11 @@ MEANINGS: dict[str, dict[str, tuple[str, str]]] = {
             "plate or another column (not with Density.NUMBER, nor with a time_step). The log says so and what it "
             "costs. Else at least 1e-9 [0]"),
         "cfl": ("float",
-            "time step over dl / (elastic wave speed), with Stress.REGULARIZED dl / c0; 0: the scheme's own, 0.45 of "
-            "what is stable with the horizon in use (horizon 2.5: 0.59, 3: 0.71, 4: 0.95, 6: 1.42), down to 0.38 of "
-            "it where the material moves by more than 0.06 dl in a step and where a blow is foreseen; of the schemes "
-            "of [1] 0.2. Else 1e-6 .. 8; beyond State.dt_limit (at least 1.18, 1.44, 1.93, 2.88 by the default "
-            "coefficients, 1.0 in the schemes of [1]) it is refused at the first step, but see allow_unstable_step "
-            "[0]"),
+            "time step over dl / (elastic wave speed), with Stress.REGULARIZED dl / c0; 0: the scheme's own (horizon "
+            "2.5: 0.59, 3: 0.71, 4: 0.95, 6: 1.42), by the default coefficients half of State.dt_limit, down to 0.42 "
+            "of it where the material moves by more than 0.06 dl in a step and where a blow is foreseen; of the "
+            "schemes of [1] 0.2. Else 1e-6 .. 8; beyond State.dt_limit (for these horizons 1.18, 1.44, 1.93, 2.88, in "
+            "the schemes of [1] 1.0) it is refused at the first step, but see allow_unstable_step [0]"),
         "time_step": ("float",
             "s, fixed; 0: adaptive, by the smallest of the limits StepLimit.SOUND to StepLimit.VISCOSITY. Beyond "
             "State.dt_limit: refused at the first step, but see allow_unstable_step [0]"),

@@ -52,7 +52,7 @@ class SimulationReading(SimulationScene):
     def state_parts(self, *, deposit: bool = False, marks: bool = False, drift: bool = False) -> State:
         """The state without what is slow to compute, except for the parts asked for; the fields of the others are NaN.
 
-        Without any of them it costs 2 to 5 % of a time step, the whole state about one step.
+        Without any of them it costs 5 % of a time step, the whole state 1.5 to 2.5 steps.
 
         Args:
             deposit: x_left, x_right, peak_x, peak_height, detached.
@@ -71,7 +71,7 @@ class SimulationReading(SimulationScene):
 
     @property
     def clock(self) -> Clock:
-        """Time [s], last time step [s] and number of steps, at no cost: the state takes about as long as a step."""
+        """Time [s], last time step [s] and number of steps, at no cost: the state takes as long as a step or two."""
         with self._engine.locked("clock") as engine:
             return _state.read_clock(engine.sim)
 
