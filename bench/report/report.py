@@ -65,7 +65,7 @@ def by_quantity(drawn: list[coverage.Drawn], values: coverage.Values) -> str:
             right, of = coverage.truth(values, scene, quantity), values[scene, quantity]
             biases = ", ".join(f"{n}: {100 * (np.mean(of[n]) / right - 1):+.1f}" for n in sorted(of)
                                if n < min(coverage.TRUTH[scene]))
-            held, narrow, median = coverage.held(some, "mean")
+            held, narrow, _ = coverage.held(some, "mean")
             stated, true = (100 * float(np.median([one.mean[k] for one in some])) for k in (1, 0))
             rows.append([f"{NAMES[scene]}, {quantity}", share(held), share(narrow), f"{stated:.1f} %", f"{true:.1f} %", biases])
     return table(["", "held", "at most 3 ×", "stated, median", "true, median", "means against the finest, %"], rows)

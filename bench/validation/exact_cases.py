@@ -17,6 +17,10 @@ def cases(results: Collection) -> list[Case]:
         _at("shear box: τ = μ(I) p at the imposed rate", "± 0.1 %", results, ("shear box",), {10: 1e-3, 20: 1e-3, 40: 1e-3}),
         _at("Bagnold flow, 26°, c0 = 10 u", "1 % at h/dl = 20, 0.3 % at 40", results, ("Bagnold, c0 = 10 u",), {20: 0.01, 40: 0.003}),
         _at("Bagnold flow, 26°, c0 = 20 u", "1 % at h/dl = 20, 0.3 % at 40", results, ("Bagnold, c0 = 20 u",), {20: 0.01, 40: 0.003}),
+        *(
+            _at(f"Bagnold flow, {name}, after 4 s", "1 % at h/dl = 20, 0.3 % at 40", results, (f"Bagnold, {name}",), {20: 0.01, 40: 0.003})
+            for name in ("23°, c0 = 25 u", "24°, c0 = 15 u", "28°, c0 = 10 u")
+        ),
         _at(
             "start of Bagnold flow, t ≤ 0.15 s", "± 2 %", results,
             ("Bagnold start-up, c0 = 10 u", "Bagnold start-up, c0 = 40 u"), {20: 0.02, 40: 0.02},

@@ -87,6 +87,10 @@ EXACT_CASES: dict[str, tuple[str, tuple[str, ...], tuple[int, ...], float]] = {
     "shear box": ("shear_box", (), (10, 20, 40), 1.0),
     "Bagnold, c0 = 10 u": ("bagnold", ("--end", "1.5"), (10, 20, 40), 0.8),
     "Bagnold, c0 = 20 u": ("bagnold", ("--end", "1.5", "--sound-speed", "20"), (10, 20, 40), 1.6),
+    # c0: 10 u, or what is 10 sqrt(2 g h) at least, for a layer that its own weight does not compress
+    "Bagnold, 23°, c0 = 25 u": ("bagnold", ("--angle", "23", "--end", "4", "--sound-speed", "25"), (10, 20, 40), 0.5),
+    "Bagnold, 24°, c0 = 15 u": ("bagnold", ("--angle", "24", "--end", "4", "--sound-speed", "15"), (10, 20, 40), 0.5),
+    "Bagnold, 28°, c0 = 10 u": ("bagnold", ("--angle", "28", "--end", "4"), (10, 20, 40), 2.1),
     "Bagnold start-up, c0 = 10 u": ("bagnold_startup", (), (20, 40), 0.3),
     "Bagnold start-up, c0 = 40 u": ("bagnold_startup", ("--sound-speed", "40"), (20, 40), 1.2),
     "chute": ("chute", (), (20, 40, 80), 1.4),

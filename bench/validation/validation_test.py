@@ -1,8 +1,10 @@
 """Runs the coarsest scenes through the runner and the report: what comes out is physics, and the report holds it."""
 from __future__ import annotations
 
+import math
 import re
 import sys
+import types
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -12,10 +14,12 @@ from smoke import Workplace  # first: skips where NumPy is missing
 
 import numpy as np
 
+import every_case
 import measures
 import results
 import runs
 import wall_runs
+import wall_sections
 
 
 def check_result(result: results.Result) -> None:
@@ -37,7 +41,24 @@ def check_result(result: results.Result) -> None:
     assert len(rows["x"]) > 10 and rows["vx"][0] < 0 < rows["vx"][-1], "both sides flow outwards"
 
 
+def check_start_up() -> None:
+    """Bagnold's speeds, and the times of a speed that nears its final one as an exponential does, as the law and 1 % later."""
+    for angle, speed in ((23, 0.3836), (24, 0.6442), (26, 1.4167), (28, 2.9422)):
+        assert abs(wall_sections.bagnold(angle, 0.04, 0) - speed) < 6e-5
+    of_row = wall_sections.bagnold(26, 0.04, 0.002)  # that of 10 rows is half a spacing deep
+    summary = {f"exact_{k}": 1.4167 * (1 - math.exp(-time / 2)) for k, time in enumerate(wall_runs.START_TIMES)}
+    summary |= {f"surface_{k}": of_row * (1 - math.exp(-time / 2.02)) for k, time in enumerate(wall_runs.START_TIMES)}
+    for share in (0.5, 0.9):
+        law, ours = wall_sections.reached(types.SimpleNamespace(summary=summary), 10, 26, share)
+        assert abs(law / (-2 * math.log(1 - share)) - 1) < 1e-3 and abs(ours / law - 1.01) < 1e-3, (share, law, ours)
+    summary["surface_3"] = 1.01 * of_row  # faster than the final speed: no exponential
+    assert math.isnan(wall_sections.reached(types.SimpleNamespace(summary=summary), 10, 26, 0.9)[1])
+
+
 def main() -> None:
+    check_start_up()
+    two = every_case.speed_of_two()
+    assert two.asked == "≥ 1.92" and 1 < float(two.measured) <= 2 and two.met == (float(two.measured) >= 1.92)
     place = Workplace.asked_for(HERE, __doc__)
 
     run = runs.resolution_run("default", 16)

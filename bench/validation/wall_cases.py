@@ -170,13 +170,21 @@ def _columns(results: Collection) -> list[Case]:
 
 
 def _start(results: Collection) -> list[Case]:
-    found = present(results, [("", runs.incline_start(runs.START_ROWS[-1]))])
-    offs = [
-        (f"{time:g} s", r.summary[f"surface_{k}"] / r.summary[f"exact_{k}"] - 1)
-        for _, r in found
-        for k, time in enumerate(runs.START_TIMES)
-    ]
-    return [worst(f"21.5° from rest, h/dl = {runs.START_ROWS[-1]}: surface speed at 0.5 to 5 s", "± 5 %", 0.05, offs, "{percent}, {label}", spent(found))]
+    rows, cases = runs.START_ROWS[-1], []
+    for angle in runs.START_ANGLES:
+        found = present(results, [("", runs.incline_start(rows, angle))])
+        name = f"{angle:g}° from rest, h/dl = {rows}"
+        speeds = [
+            (f"{time:g} s", r.summary[f"surface_{k}"] / r.summary[f"exact_{k}"] - 1)
+            for _, r in found
+            for k, time in enumerate(runs.START_TIMES)
+        ]
+        cases.append(worst(f"{name}: surface speed at 0.5 to 5 s", "± 5 %", 0.05, speeds, "{percent}, {label}", spent(found)))
+        if angle != runs.START_ANGLES[0]:
+            reached = [(share, sections.reached(r, rows, angle, share)) for _, r in found for share in sections.START_SHARES]
+            times = [(f"to {100 * share:g} %", ours / exact - 1) for share, (exact, ours) in reached]
+            cases.append(worst(f"{name}: times to 50 and 90 % of the final speed", "± 5 %", 0.05, times, "{percent}, {label}", None))
+    return cases
 
 
 def _face(results: Collection) -> Case:

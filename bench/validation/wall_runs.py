@@ -12,6 +12,7 @@ COULOMB_ROWS = (1, 2, 3, 4, 6, 10, 20)
 INERTIAL_ROWS = (1, 2, 4, 8, 16, 32)
 START_ROWS = (10, 20)
 START_TIMES = (0.5, 1, 2, 5)  # s, as the program has them
+START_ANGLES = (21.5, 26)  # degrees; the first is the program's own
 COLUMN_ANGLES = (5, 10, 16)  # degrees
 COLUMN_ROWS = (28, 56)  # spacings in the height
 COLUMN_HEIGHT = 0.14  # m
@@ -44,8 +45,14 @@ def slide_inertial(rows: int) -> Run:
     return Run(f"slide_inertial_{rows}", "walls", ("slide_inertial", "--rows", str(rows)), 0.2 + 0.01 * rows**2)
 
 
-def incline_start(rows: int) -> Run:
-    return Run(f"incline_start_{rows}", "walls", ("incline_start", "--rows", str(rows)), 3.0 * (rows / 20) ** 3)
+def incline_start(rows: int, angle: float = START_ANGLES[0]) -> Run:
+    own = angle == START_ANGLES[0]
+    return Run(
+        f"incline_start{'' if own else f'_{angle:g}'}_{rows}",
+        "walls",
+        ("incline_start", "--rows", str(rows), *(() if own else ("--angle", f"{angle:g}"))),
+        3.0 * (rows / 20) ** 3,
+    )
 
 
 def incline_column(angle: float, rows: int, bed: float = 0) -> Run:
@@ -120,7 +127,7 @@ def walls() -> list[Run]:
     return (
         [slide_coulomb(rows, coulomb) for coulomb in (False, True) for rows in COULOMB_ROWS]
         + [slide_inertial(rows) for rows in INERTIAL_ROWS]
-        + [incline_start(rows) for rows in START_ROWS]
+        + [incline_start(rows, angle) for angle in START_ANGLES for rows in START_ROWS]
         + [incline_column(angle, rows) for angle in COLUMN_ANGLES for rows in COLUMN_ROWS]
         + [incline_column(BED_ANGLE, rows, BED) for rows in COLUMN_ROWS]
         + [silo(rows) for rows in SILO_ROWS]

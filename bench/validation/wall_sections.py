@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from typing import Sequence
 
 import wall_runs as runs
 from markdown import NONE, cpu, fixed, percent, table
@@ -11,6 +12,8 @@ HEADER = ["case", "right", "ours", "error", "CPU s"]
 
 MU_S, MU_2, I0 = math.tan(math.radians(21)), math.tan(math.radians(32)), 0.3
 GRAIN_DENSITY, DENSITY, GRAVITY, DIAMETER = 2500.0, 1550.0, 9.81, 0.002
+START_HEIGHT = 0.04  # m
+START_SHARES = (0.5, 0.9)  # of the final speed
 SILO_WIDTH, SILO_HEIGHT, SILO_SPEED = 0.06, 0.36, 0.01  # m, m, m/s
 
 
@@ -55,23 +58,43 @@ def slide_inertial(results: Collection) -> str:
     return table(["case", "right way (m)", "ours", "error", "CPU s"], rows)
 
 
-def incline_start(results: Collection) -> str:
+def incline_start(results: Collection, angle: float, shares: Sequence[float] = ()) -> str:
+    """Speeds of the surface beside the law's, and when it has these shares of the final one."""
     rows = []
     for n in runs.START_ROWS:
-        run = runs.incline_start(n)
+        run = runs.incline_start(n, angle)
         for k, time in enumerate(runs.START_TIMES):
             ours, exact = _value(results, run, f"surface_{k}"), _value(results, run, f"exact_{k}")
-            last = k + 1 == len(runs.START_TIMES)
-            rows.append(
-                [
-                    f"h/dl = {n}, surface at {time:g} s (m/s)",
-                    fixed(exact, 4),
-                    fixed(ours, 4),
-                    percent(ours, exact),
-                    _cpu(results, run) if last else "",
-                ]
-            )
+            rows.append([f"h/dl = {n}, surface at {time:g} s (m/s)", fixed(exact, 4), fixed(ours, 4), percent(ours, exact), ""])
+        for share in shares:
+            result = results(run)
+            exact, ours = reached(result, n, angle, share) if result else (None, None)
+            rows.append([f"h/dl = {n}, {100 * share:g} % of the final speed (s)", fixed(exact, 2), fixed(ours, 2), percent(ours, exact), ""])
+        rows[-1][-1] = _cpu(results, run)
     return table(HEADER, rows)
+
+
+def bagnold(angle: float, height: float, depth: float) -> float:
+    """m/s, the steady speed of a layer of this height (m) at a depth (m) below its surface."""
+    slope = math.radians(angle)
+    inertial = I0 * (math.tan(slope) - MU_S) / (MU_2 - math.tan(slope))
+    factor = 2 / 3 * inertial / DIAMETER * math.sqrt(DENSITY / GRAIN_DENSITY * GRAVITY * math.cos(slope))
+    return factor * (height**1.5 - depth**1.5)
+
+
+def reached(result: Result, rows: int, angle: float, share: float) -> tuple[float, float]:
+    """When the surface has this share of its final speed (s): the law's and ours, whose uppermost row is half a spacing deep.
+    What is missing of the final speed falls by the same factor in equal times, between two instants that are known."""
+    times = []
+    for name, depth in (("exact", 0.0), ("surface", START_HEIGHT / rows / 2)):
+        final = bagnold(angle, START_HEIGHT, depth)
+        missing = [1 - result.summary[f"{name}_{k}"] / final for k in range(len(runs.START_TIMES))]
+        k = sum(part > 1 - share for part in missing[1:-1])
+        before, after = missing[k : k + 2]
+        known = 0 < after < before and after <= 1 - share <= before
+        begin, end = runs.START_TIMES[k : k + 2]
+        times.append(begin + (end - begin) * math.log(before / (1 - share)) / math.log(before / after) if known else math.nan)
+    return times[0], times[1]
 
 
 def incline_column(results: Collection) -> str:
@@ -189,7 +212,12 @@ With μ(I), 5 mm thick, at 0.8 m/s; right is the law.
 21.5°, half a degree above yield, h = 4 cm = 20 d. Right is the law. So near yield one per cent of the stress is
 {100 * 0.01 * math.tan(math.radians(21.5)) / (math.tan(math.radians(21.5)) - MU_S):.0f} % of the velocity.
 
-{incline_start(results)}
+{incline_start(results, 21.5)}
+
+26°, where the final speed is Bagnold's, {bagnold(26, START_HEIGHT, 0):.4f} m/s at the surface. Times are between those at which there is a
+speed: what is missing of the final one falls as an exponential there.
+
+{incline_start(results, 26, START_SHARES)}
 
 ### Columns on inclines
 

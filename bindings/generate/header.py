@@ -137,7 +137,7 @@ class Parser:
             kind, text, _ = self.tokens[self.position]
             if kind == "define":
                 self.position += 1
-                constant = self.define(text, doc)
+                constant = self.define(text)
                 previous = declarations[-1] if declarations else None
                 if constant and isinstance(previous, Constants) and not previous.is_enum and not doc:
                     previous.values.append(constant)
@@ -157,7 +157,7 @@ class Parser:
             else:
                 self.error("not understood")
 
-    def define(self, line, doc):
+    def define(self, line):
         match = re.match(r"#define (GP_\w+) +(.+)", line)
         if not match or match.group(1) == "GP_API":
             return None  # include guard, macros with arguments

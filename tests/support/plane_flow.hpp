@@ -34,7 +34,7 @@ private:
     void step(double dt) {
         const std::size_t n = u_.size();
         const double phi = 0.62, grain_density = 2500, density = phi * grain_density;
-        std::vector<double> k(n), lower(n), diagonal(n), right(n);
+        std::vector<double> k(n), upper(n), diagonal(n), right(n);
         for (int pass = 0; pass < 4; ++pass) { // the viscosity of the new rate
             for (std::size_t f = 0; f < n; ++f) {
                 const double p = density * down_ * width_ * static_cast<double>(n - f), gamma = std::abs(rate_[f]);
@@ -51,10 +51,10 @@ private:
                     diagonal[i] -= m * below;
                     right[i] += m * right[i - 1];
                 }
-                lower[i] = a * above;
+                upper[i] = a * above;
             }
             for (std::size_t i = n; i-- > 0;)
-                right[i] = (right[i] + (i + 1 < n ? lower[i] * right[i + 1] : 0.0)) / diagonal[i];
+                right[i] = (right[i] + (i + 1 < n ? upper[i] * right[i + 1] : 0.0)) / diagonal[i];
             rate_[0] = right[0] / (width_ / 2);
             for (std::size_t f = 1; f < n; ++f)
                 rate_[f] = (right[f] - right[f - 1]) / width_;

@@ -8,6 +8,8 @@ import sys
 from types import FrameType
 from typing import Any, Callable, Iterator
 
+from ._progress import has_tqdm
+
 
 class Terminated(KeyboardInterrupt):
     """SIGTERM: a batch system wants its processor back."""
@@ -41,6 +43,11 @@ class Commands:
         one = self._all.add_parser(name, help=help, description=help, **more)
         one.set_defaults(function=function)
         return one
+
+
+def bar_is_shown(options: argparse.Namespace) -> bool:
+    """--progress or --no-progress; without either, on a terminal that has tqdm."""
+    return options.progress if options.progress is not None else sys.stderr.isatty() and has_tqdm()
 
 
 def whole_above_0(text: str) -> int:

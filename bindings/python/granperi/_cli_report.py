@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from typing import Any
 
+from ._cli import bar_is_shown
 from ._errors import ArgumentError, FileError
 from ._report import report
 
@@ -48,14 +48,8 @@ def _report(options: argparse.Namespace) -> None:
             raise FileError(f"{path}: exists: name another one with --output, or replace it with --overwrite")
     found = report(options.scene, options.budget, options.accuracy, end=options.end, spacings=options.spacings,
                    seeds=options.seeds, of=options.of, workers=options.workers,
-                   progress=_shown() if options.progress is None else options.progress)
+                   progress=bar_is_shown(options))
     print(found)
     for path in outputs:
         found.write(path, options.overwrite)
         print(path)
-
-
-def _shown() -> bool:
-    import importlib.util
-
-    return sys.stderr.isatty() and importlib.util.find_spec("tqdm") is not None

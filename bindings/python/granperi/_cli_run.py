@@ -6,9 +6,8 @@ import os
 import sys
 
 from . import _mpi
-from ._cli import Commands, saved_when_terminated
+from ._cli import Commands, bar_is_shown, saved_when_terminated
 from ._errors import ArgumentError, Error
-from ._progress import has_tqdm
 from ._objects import Config
 from ._scene import Scene
 from ._scene_tables import make_run
@@ -84,7 +83,7 @@ def _run(options: argparse.Namespace) -> None:
         _replace(scene, name, getattr(options, name))
     make_run(vars(scene.run))  # the check of what the options have changed
     output = scene.run.output = _output(options, scene)
-    progress = options.progress if options.progress is not None else sys.stderr.isatty() and has_tqdm()
+    progress = bar_is_shown(options)
     if options.mpi is not None:
         if options.resume or options.csv or scene.run.until != "end" or scene.has_probes():
             raise ArgumentError("--mpi: expected no --resume, no --csv, no [[probe]] and until = \"end\"")

@@ -2,14 +2,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import tomllib
 from typing import Any
 
 from . import _sweep
-from ._cli import Commands, saved_when_terminated, whole_above_0
+from ._cli import Commands, bar_is_shown, saved_when_terminated, whole_above_0
 from ._errors import ArgumentError, Error
-from ._progress import has_tqdm
 
 HELP = """\
 All combinations of the values are run. Keys: config.NAME, run.NAME, TABLE.NAME, or TABLE.NUMBER.NAME where there are several.
@@ -60,8 +58,7 @@ def _sweep_scene(options: argparse.Namespace) -> None:
         return
     with saved_when_terminated("the same command goes on"):
         table = _sweep.sweep(options.scene, parameters, options.directory, options.workers,
-                             options.progress if options.progress is not None else sys.stderr.isatty() and has_tqdm(),
-                             options.overwrite)
+                             bar_is_shown(options), options.overwrite)
     print(table)
     print(f"table in {options.directory}/sweep.csv")
     if table.failed:

@@ -159,11 +159,15 @@ class Probe:
         assert sim is not None
         try:
             with open(path, encoding="utf-8", newline="") as file:
-                names, *rows = csv.reader(file)
-            if names != self.names:
+                lines = list(csv.reader(file))
+            if lines[:1] != [self.names]:
                 raise ValueError("it has other columns")
-            self._rows = [row for row in (np.array([float(cell) for cell in row]) for row in rows) if row[0] <= sim.time]
-        except (OSError, ValueError) as error:
+            for k, line in enumerate(lines, 1):
+                if len(line) != len(self.names):
+                    raise ValueError(f"line {k} has {len(line)} values: expected {len(self.names)}")
+            rows = (np.array([float(cell) for cell in line]) for line in lines[1:])
+            self._rows = [row for row in rows if row[0] <= sim.time]
+        except (OSError, ValueError, csv.Error) as error:
             raise FileError(f"{os.fspath(path)}: cannot be continued: {error}") from None
         if self._rows:
             self._timer.skip(self._rows[-1][0] + 1e-9 * sim.clock.dt)

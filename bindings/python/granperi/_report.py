@@ -10,6 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Callable, Iterator, Mapping, Sequence
 
 from ._errors import ArgumentError, number, whole
+from ._progress import new_bar
 from ._report_growth import Growth, Next, missing, two_digits
 from ._report_ladder import ROUNDED, Cost, Sides, given
 from ._report_result import ASKED, Report, names_of
@@ -26,11 +27,7 @@ class _Bar:
     def __init__(self, budget: float, shown: bool):
         self._begin, self._bar, self._seen = time.monotonic(), None, -math.inf
         if shown:
-            try:
-                from tqdm.auto import tqdm
-            except ImportError:
-                raise ImportError("a progress bar needs tqdm (pip install tqdm, or Debian's python3-tqdm); or report(progress=False)") from None
-            self._bar = tqdm(total=budget, unit="s", bar_format="{desc} |{bar}| {n:.0f}/{total:g} s of the budget")
+            self._bar = new_bar(total=budget, unit="s", bar_format="{desc} |{bar}| {n:.0f}/{total:g} s of the budget")
 
     def show(self, text: str) -> None:
         if self._bar is not None:

@@ -19,6 +19,7 @@ from ._tables import as_html
 if TYPE_CHECKING:
     import h5py
 
+HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"  # behind a block of text in a checkpoint
 _VECTORS = {"x": ("position", 0), "y": ("position", 1), "vx": ("velocity", 0), "vy": ("velocity", 1)}
 
 
@@ -170,7 +171,8 @@ class FileSnapshot(Snapshot):
             columns = self._read("column") if self._result.has("column") else np.zeros(len(self.x), int)
             for column in range(columns.max(initial=0) + 1):
                 here = columns == column
-                sim.add_particles(self.x[here], self.y[here])
+                if here.any():  # there may be no particles at all; a column always has some
+                    sim.add_particles(self.x[here], self.y[here])
             self._sim = sim
         return self._sim
 
@@ -392,7 +394,7 @@ def _why_unreadable(path: str, error: OSError) -> str:
             begin = file.read(8)
     except OSError as why:
         return f"cannot be read: {why.strerror}"
-    if begin != b"\x89HDF\r\n\x1a\n":
+    if begin != HDF5_SIGNATURE:
         return "is no HDF5 file" + (": ParaView opens this one; here name the .h5 beside it" if path.endswith(".xdmf") else
                                     ": expected a result file (.h5), not a scene; python3 -m granperi run makes one of it"
                                     if path.endswith(".toml") else ": expected a result file (.h5)")

@@ -11,13 +11,12 @@ from ._errors import ArgumentError, ArgumentTypeError, Error, near_match, number
 from ._objects import Config
 from ._probe import Probe
 from ._record import CHECKPOINT_SECONDS, record_scene
+from ._result import HDF5_SIGNATURE
 from ._scene_file import Lines, Part, SceneError
 from ._scene_tables import BUILDERS, CONFIG, LISTS, RUN, Run, make_config, make_run
 from ._simulation import Simulation
 from ._state import History
 from ._tables import require_free, write_text
-
-HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"  # behind a block of text in a checkpoint
 
 
 class Scene:

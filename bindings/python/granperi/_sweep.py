@@ -14,7 +14,7 @@ from typing import Any, Iterable, Mapping
 
 import numpy as np
 
-from ._errors import ArgumentError, ArgumentTypeError, FileError, whole
+from ._errors import ArgumentError, ArgumentTypeError, Error, FileError, whole
 from ._progress import new_bar, require_tqdm
 from ._result import Result
 from ._scene import Scene, scene_of
@@ -185,15 +185,23 @@ def collect(directory: "str | os.PathLike[str]" = "sweep") -> Sweep:
         row = {"point": point["point"], **point["values"], "status": "complete"}
         stem = os.path.join(directory, point["point"])
         if os.path.exists(stem + ".h5"):
-            with Result(stem + ".h5") as result:
-                last = result.history[-1]
-            row.update({name: getattr(last, name) for name in RESULTS})
+            row.update(_results_in(stem + ".h5"))
         else:
             row["status"] = _failure(stem)
         rows.append(row)
     table = Sweep(directory, list(points[0]["values"]) if points else [], rows)
     table.to_csv(os.path.join(directory, "sweep.csv"), overwrite=True)
     return table
+
+
+def _results_in(path: str) -> dict[str, Any]:
+    """The fields of State at the end of a result, or the status of one that cannot be read."""
+    try:
+        with Result(path) as result:
+            last = result[-1].state
+    except (Error, OSError, KeyError) as error:  # the latter two: of h5py, where a file is damaged within
+        return {"status": f"{error}; delete it to run the point anew"}
+    return {name: getattr(last, name) for name in RESULTS}
 
 
 def _failure(stem: str) -> str:

@@ -166,6 +166,31 @@ def test_compare(run, tmp_path):
     assert early.time == pytest.approx(0.02, abs=5e-4) and late.time == 0.1
 
 
+def test_compare_tells_the_centre_of_mass(tmp_path):
+    """Of a light and a heavy half beside each other, of which the middle of the particles knows nothing."""
+    with granperi.Simulation(spacing=0.01, threads=1) as sim:
+        heavy = sim.add_material(grain_density=10000.0)
+        sim.add_plate(granperi.Plate.floor(-0.5, 0.5))
+        sim.add_column(x_min=0, width=0.05, height=0.05)
+        sim.add_column(x_min=0.05, width=0.05, height=0.05, material=heavy)
+        sim.record(tmp_path / "halves.h5", 0.002, 0.001)
+        rows = {row.name: row for row in granperi.compare(tmp_path / "halves.h5", sim)}
+        assert rows["centre_x"].first == pytest.approx((0.025 * 2500 + 0.075 * 10000) / 12500, abs=1e-4)
+        assert rows["centre_x"].second == sim.state.centre_x and rows["centre_y"].second == sim.state.centre_y
+
+
+def test_a_result_without_particles_has_a_surface(tmp_path):
+    """As the simulation that wrote it: nothing lies there."""
+    with granperi.Simulation(spacing=0.01, threads=1) as sim, pytest.warns(granperi.GranperiWarning, match="no material"):
+        sim.add_plate(granperi.Plate.floor(-0.5, 0.5))
+        sim.record(tmp_path / "empty.h5", 0.002, 0.001)
+        with granperi.Result(tmp_path / "empty.h5") as result:
+            for source in (granperi._result.snapshot(sim), result[-1]):
+                assert list(source.surface([0.0, 0.1])) == [0, 0]
+                with pytest.raises(granperi.ArgumentError, match="left = 0"):
+                    source.interface(0, 1, [0.0])
+
+
 def test_gif(source, tmp_path):
     if isinstance(source, granperi.Simulation):
         with granperi.Simulation(spacing=0.02, threads=1) as sim:

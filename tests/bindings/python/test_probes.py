@@ -65,6 +65,26 @@ def test_table_and_remove(sim, tmp_path):
         probe["presure"]
 
 
+@pytest.mark.parametrize("change, why", [
+    (lambda text: text + "\n", "line 7 has 0 values: expected 10"),
+    (lambda text: text.rstrip("\n").rpartition(",")[0] + "\n", "line 6 has 9 values: expected 10"),
+    (lambda text: text.replace("0.005", "half", 1), "could not convert"),
+    (lambda text: text.replace("fx_0", "fx_1"), "it has other columns"),
+    (lambda text: "", "it has other columns"),
+])
+def test_a_table_that_is_damaged_is_not_taken_over(sim, tmp_path, change, why):
+    probe = sim.add_probe(plates=[0], every=0.005)
+    sim.run(0.02)
+    probe.to_csv(tmp_path / "p.csv")
+    before = probe["impulse_y"]
+    probe.read_csv(tmp_path / "p.csv")
+    assert np.array_equal(probe["impulse_y"], before) and len(probe) == 5
+    (tmp_path / "p.csv").write_text(change((tmp_path / "p.csv").read_text()))
+    with pytest.raises(granperi.FileError, match=f"p.csv: cannot be continued: .*{why}"):
+        probe.read_csv(tmp_path / "p.csv")
+    assert np.array_equal(probe["impulse_y"], before)
+
+
 def test_a_probe_added_later_begins_there_and_an_error_in_it_comes_out(sim):
     sim.run(0.01)
     probe = sim.add_probe(points=[[0, 0.01]], every=0.01)

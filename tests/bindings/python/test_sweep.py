@@ -1,6 +1,7 @@
 """Sweeps: a scene per point, runs beside each other, what is missing, one table; and scenes that are written."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -111,6 +112,22 @@ def test_a_run_that_fails_is_told_and_the_others_go_on(scene, tmp_path):
     table = granperi.sweep(scene, {"config.time_step": [1e-4, 0.02]}, tmp_path / "s")
     assert table["status"][0] == "complete" and len(table.failed) == 1 and np.isnan(table["peak_height"][1])
     assert "step" in table["status"][1] and (tmp_path / "s" / "time_step=0.02.log").read_text()
+
+
+def test_a_result_that_cannot_be_read_does_not_hide_the_others(scene, tmp_path):
+    """As a full disk or a copy that broke off leaves it; or a run that ended before its first frame."""
+    table = granperi.sweep(scene, {"config.seed": [1, 2, 3]}, tmp_path / "s")
+    cut, no_frames = tmp_path / "s" / "seed=1.h5", tmp_path / "s" / "seed=3.h5"
+    cut.write_bytes(cut.read_bytes()[:5000])
+    with scene.build() as sim, sim.output(tmp_path / "none.h5"):
+        shutil.copy(tmp_path / "none.h5", no_frames)
+    again = granperi.sweep(scene, {"config.seed": [1, 2, 3]}, tmp_path / "s")
+    assert again.rows[1] == table.rows[1] and np.isnan(again["peak_height"][[0, 2]]).all()
+    assert "seed=1.h5: cannot be read" in again["status"][0] and "seed=3.h5 has no frames" in again["status"][2]
+    for row in again.failed:
+        assert row["status"].endswith("delete it to run the point anew")
+    cut.unlink()
+    assert granperi.sweep(scene, {"config.seed": [1, 2, 3]}, tmp_path / "s").rows[0] == table.rows[0]
 
 
 def test_points_that_another_program_runs(scene, tmp_path):

@@ -154,6 +154,22 @@ def test_the_bar_of_a_notebook(sim, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "ipywidgets", types.SimpleNamespace(version_info=(6, 0, 0, "final", 0)))  # Debian 12
     sim.run(0.03, progress=True)
     assert "0.030/0.03 s" in capsys.readouterr().err
+    bar = granperi._report._Bar(20, True)
+    bar.show("two runs")
+    bar.close()
+    assert "two runs" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", ["run", "sweep", "report"])
+def test_a_bar_is_shown_on_a_terminal_that_has_tqdm(command, monkeypatch):
+    """Unless it is asked for, or asked not to be."""
+    from granperi import __main__, _cli
+
+    asked = [__main__._parser().parse_args([command, "s.toml", *options]) for options in ([], ["--progress"], ["--no-progress"])]
+    for terminal, tqdm, shown in ((True, True, True), (True, False, False), (False, True, False)):
+        monkeypatch.setattr(sys, "stderr", types.SimpleNamespace(isatty=lambda: terminal))
+        monkeypatch.setattr(_cli, "has_tqdm", lambda: tqdm)
+        assert [_cli.bar_is_shown(options) for options in asked] == [shown, True, False]
 
 
 # ----------------------------------------------------------------------------------------------- MDAnalysis
