@@ -66,7 +66,7 @@ public:
         }
     }
     double share(double y) const {
-        const double at = std::clamp(y, 0.0, 1.0) * samples;
+        const double at = y > 0 ? std::min(y, 1.0) * samples : 0.0; // of what is no number, too: such a step is refused later
         const int k = std::min(static_cast<int>(at), samples - 1);
         return share_[k] + (at - k) * (share_[k + 1] - share_[k]);
     }
