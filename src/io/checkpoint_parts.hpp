@@ -1,5 +1,5 @@
-// What a checkpoint consists of, each part described once for writing and reading. Only checkpoint.cpp and
-// checkpoint_scene.cpp include this.
+// What a checkpoint consists of, each part described once for writing and reading. Only the files that write and read
+// checkpoints include this.
 #pragma once
 
 #include <string>
@@ -11,24 +11,6 @@
 #include "sim.hpp"
 
 namespace gp::io {
-
-struct MaterialTable {
-    std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, nonlocal_amplitude,
-        fluidity_time, k0;
-};
-
-template <class File, class Table> void exchange_materials(File &file, Table &t) {
-    file.group("/materials");
-    file.array("grain_density", t.grain_density);
-    file.array("volume_fraction", t.volume_fraction);
-    file.array("grain_diameter", t.grain_diameter);
-    file.array("mu_s", t.mu_s);
-    file.array("mu_2", t.mu_2);
-    file.array("i0", t.i0);
-    file.array("nonlocal_amplitude", t.nonlocal_amplitude);
-    file.array("fluidity_time", t.fluidity_time);
-    file.array("k0", t.k0);
-}
 
 // Columns as they were added; and sets of particles, which have their initial positions and velocities one after the other.
 struct BodyTable {
