@@ -28,21 +28,30 @@ void write_items(CheckpointWriter &file, const std::vector<Item> &items, const F
     });
 }
 
+// Of items that are there.
+template <class Item, class ForEach>
+void read_items(CheckpointReader &file, const Checker &check, std::vector<Item> &items, const ForEach &for_each) {
+    for_each([&](const char *name, const auto &number) {
+        std::vector<typename StoredNumber<Item, std::decay_t<decltype(number)>>::type> values;
+        file.array(name, values);
+        check.same_size(name, values, items.size());
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            auto &own = std::invoke(number, items[k]);
+            own = static_cast<std::decay_t<decltype(own)>>(values[k]);
+        }
+    });
+}
+
 // As many as there are of the first number; of the others there have to be as many.
 template <class Item, class ForEach>
 std::vector<Item> read_items(CheckpointReader &file, const Checker &check, const Item &blank, const ForEach &for_each) {
     std::vector<Item> items;
     bool first = true;
     for_each([&](const char *name, const auto &number) {
-        std::vector<typename StoredNumber<Item, std::decay_t<decltype(number)>>::type> values;
-        file.array(name, values);
         if (std::exchange(first, false))
-            items.assign(values.size(), blank);
-        check.same_size(name, values, items.size());
-        for (std::size_t k = 0; k < values.size(); ++k)
-            std::invoke(number, items[k]) =
-                static_cast<std::decay_t<decltype(std::invoke(number, items[k]))>>(values[k]);
+            items.assign(file.size_of<typename StoredNumber<Item, std::decay_t<decltype(number)>>::type>(name), blank);
     });
+    read_items(file, check, items, for_each);
     return items;
 }
 
