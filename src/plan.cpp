@@ -285,9 +285,9 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     optional("neighbor_lists", t.scheme != Scheme::adjoint, "operators on single particles",
              "the default scheme's operators work on clusters", world.neighbors.bytes());
     common("list_origin", world.list_origin.bytes() + world.tiles.bytes());
-    entries.push_back(field_entry("images", t.particles && t.periodic,
-                                  t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
-                                  world.images.bytes()));
+    optional("images", t.periodic || t.parts,
+             t.parts ? "other processes have particles, too" : "the scene is periodic in x",
+             "the scene is not periodic", world.images.bytes() + (world.halo ? world.halo->bytes() : 0));
     optional("viscous_system", t.scheme == Scheme::implicit, "the implicit solve's operators and vectors",
              "no implicit solve", world.viscous.bytes() + world.mirrors.bytes());
     optional("sleep", t.sleep, "sleep is 1: how long it has rested, spans and loads of what sleeps", "sleep is 0",
