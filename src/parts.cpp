@@ -72,9 +72,8 @@ std::vector<double> least_of_all(Crossing &crossing, const std::vector<double> &
 }
 
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest) {
-    constexpr int most = 4;
-    std::array<Whole, most * bins::count> wholes;
-    std::array<double, most + 1> tops;
+    std::array<Whole, most_sums * bins::count> wholes;
+    std::array<double, most_sums + 1> tops;
     auto *next = wholes.data();
     for (int k = 0; k < n_sums; ++k) {
         next = std::copy(sums[k].wholes.begin(), sums[k].wholes.end(), next);
