@@ -129,6 +129,7 @@ GP_INLINE void drop_shear(const Facet &facet, double &xx, double &xy, double &yx
 GP_INLINE double shear_of_turn(const Facet &facet, double omega, double sxx, double sxy, double syy) {
     return omega == 0 ? 0.0 : shear_of(facet, -omega * sxy, -omega * syy, omega * sxx, omega * sxy);
 }
+// Only a rough one does: this decides it for all stages, and for every kind of wall.
 GP_INLINE bool passes_shear(const Facet &facet) {
     return facet.spec->friction == GP_WALL_NO_SLIP;
 }
