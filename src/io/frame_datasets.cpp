@@ -7,7 +7,7 @@ namespace gp::io {
 
 namespace {
 
-constexpr int64_t groups_expected = 480; // a table of names in one page: see Store
+constexpr int64_t groups_expected = 480; // a table of names in one page: see FrameStore
 constexpr int64_t links_expected = 6; // what the name of the walls and a link to earlier ones take of a table, in names
 
 // With single precision, positions are kept as 64 bits all the same: 32 would be 5 places for 160 particles in the coordinates

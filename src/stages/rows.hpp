@@ -23,8 +23,7 @@ struct Rows {
     GP_INLINE const int32_t *row(int64_t i) const { return index + start[i]; }
     GP_INLINE int64_t count(int64_t i) const { return start[i + 1] - start[i]; }
 
-    // The plates that particle i sees: none, or a run of contacts. A loop and not a callback, so that its body is compiled
-    // for the instruction set of the function that it stands in.
+    // The plates that particle i sees: none, or a run of contacts.
     struct Run {
         const Contact *first, *last;
         const Contact *begin() const { return first; }
