@@ -62,7 +62,7 @@ void FrameDatasets::make_layout(const FrameHeader &header, const FrameRows &cons
     }
 
     Id particles = make_group("/particles", 1), all = make_group("/particles/all", 20);
-    make_box(header);
+    make_box();
     std::size_t component = 0;
     for (Element &element : elements) {
         const std::string name = element.path() + (element.constant ? "" : "/value");
@@ -152,20 +152,10 @@ void FrameDatasets::write_constant(const Element &element, hid_t dataset, const 
         cells = element.path();
 }
 
-void FrameDatasets::make_box(const FrameHeader &header) const {
+void FrameDatasets::make_box() const {
     const int64_t dimension = 3;
-    char boundary[3][9] = {"none", "none", "none"};
+    const char boundary[3][9] = {"none", "none", "none"}; // as wide as "periodic": H5MD's box would begin at x = 0
     Id box = make_group("/particles/all/box", 1), type = own(H5Tcopy(H5T_C_S1), "describe a text");
-    if (header.periodic_x) {
-        double edges[3] = {0, 0, 0}; // H5MD: placeholders where the boundary is none
-        std::snprintf(boundary[0], sizeof boundary[0], "periodic");
-        for (const auto &[name, value] : header.parameters)
-            edges[0] += name == "periodic_x_max" ? value : name == "periodic_x_min" ? -value : 0;
-        if (!(edges[0] > 0))
-            throw io_failure(path, "write the box", "periodic_x_max has to be larger than periodic_x_min");
-        Id dataset = make_dataset("/particles/all/box/edges", H5T_IEEE_F64LE, {3}, false, 0, "m");
-        check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, edges), "write the box");
-    }
     set_integers(box, "dimension", {}, &dimension);
     check(H5Tset_size(type, sizeof boundary[0]), "describe a text");
     set_attribute(box, "boundary", type, type, {3}, boundary);

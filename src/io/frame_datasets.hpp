@@ -65,7 +65,7 @@ private:
     void make_scene(const std::string &text) const;
     void make_observables(const std::vector<Observable> &all);
     void make_walls(const WallLines &walls);
-    void make_box(const FrameHeader &header) const;
+    void make_box() const;
     void write_constant(const Element &element, hid_t dataset, const FrameRows &rows, std::size_t component);
     const double *pack(const Element &element, const FrameRows &rows, const RowRequest &some);
     template <class See>

@@ -48,7 +48,6 @@ struct FrameHeader {
     int64_t count; // particles
     double spacing;
     double gravity[2];
-    bool periodic_x; // needs the parameters periodic_x_min and periodic_x_max
     const char *creator_version;
     std::vector<std::pair<std::string, double>> parameters;
     std::vector<Observable> observables = {}; // none: no such dataset
