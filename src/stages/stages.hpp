@@ -96,7 +96,7 @@ void wall_volume_velocity(World &world);
 void pressure_over_shape(World &world);
 // Ghost pressures extrapolated from the particles.
 void wall_isotropic_stress(World &world);
-// The operators of the viscous equations at r^k.
+// The operators of the viscous equations (viscous_operators.hpp) where particles and plates are now, at r^k.
 void viscous_system(World &world);
 // What plates bear of single particles before the solve; what is left to do, or to take back, after it.
 void wall_support(World &world);

@@ -376,10 +376,6 @@ void solve(World &world) {
 
 } // namespace
 
-void viscous_system(World &world) {
-    make_viscous_system(world);
-}
-
 void viscous_forecast(World &world) {
     ViscousSystem &v = world.viscous;
     begin_as_before(world);
