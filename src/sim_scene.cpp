@@ -1,6 +1,5 @@
 // What the host adds to the scene, and what it does to plates and gravity before and during a run.
 #include <algorithm>
-#include <cmath>
 
 #include "check.hpp"
 #include "ledger.hpp"

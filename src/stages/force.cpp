@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"

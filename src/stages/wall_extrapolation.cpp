@@ -1,7 +1,6 @@
 // What the ghosts behind a plate carry: velocity and stress extrapolated from the particles that see them, after Adami,
 // Hu & Adams (2012). Ghosts that simply carried the plate's velocity would put the no-slip surface about 1.3 dl too deep.
 #include <algorithm>
-#include <cmath>
 
 #include "awake.hpp"
 #include "lanes.hpp"
