@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/frame_file.hpp"
-#include "io/hdf5_writer.hpp"
+#include "io/hdf5_file.hpp"
 
 namespace gp::io {
 
@@ -21,7 +21,7 @@ struct Element {
     bool is_position() const { return name == "position"; }
 };
 
-struct FrameDatasets : Hdf5Writer {
+struct FrameDatasets : Hdf5File {
     int64_t count = 0, frames = 0; // frames: complete ones
     int compression = 0;
     bool single = false;
