@@ -272,7 +272,7 @@ gp_status gp_output_close(gp_sim *sim) {
             throw make_error(GP_E_STATE, "gp_output_close: no output is open");
         s.sink = nullptr;
         const std::unique_ptr<io::Output> closing = std::move(sim->output);
-        on_first(s.crossing(), [&] { closing->close(); }); // a change of the scene may have left no world
+        on_first(s.crossing(), [&] { closing->close(); });
         return GP_OK;
     });
 }

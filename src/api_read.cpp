@@ -3,7 +3,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <limits>
+#include <iterator>
+#include <type_traits>
 #include <vector>
 
 #include "api.hpp"
@@ -79,6 +80,7 @@ gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles
             view.id = world.particles.id.data();
         if (fields & GP_FIELD_COLUMN)
             view.column = world.particles.column.data();
+        // In the order of the bits.
         const double **pointers[] = {&view.x,
                                      &view.y,
                                      &view.vx,
@@ -93,6 +95,8 @@ gp_status gp_get_particles(gp_sim *sim, uint32_t fields, gp_particles *particles
                                      &view.viscosity,
                                      &view.number_density,
                                      &view.fluidity};
+        static_assert(std::size(pointers) == std::extent_v<decltype(gp_sim::derived)>);
+        static_assert((GP_FIELD_X << std::size(pointers)) - 1 == GP_FIELD_ALL, "a field without a pointer");
         for (uint32_t k = 0; k < std::size(pointers); ++k) {
             const uint32_t bit = GP_FIELD_X << k;
             if (fields & bit)

@@ -14,6 +14,7 @@
 #include "diagnostics.hpp"
 #include "kernel.hpp"
 #include "parts.hpp"
+#include "sight.hpp"
 #include "sort_by_x.hpp"
 #include "stretches.hpp"
 
@@ -24,9 +25,7 @@ namespace {
 constexpr double surface_radius = 2;  // dl: a straight row of particles still reaches a volume fraction of 1/2
 constexpr double peak_radius = 3;     // dl, and twice this
 constexpr double full_fraction = 0.9; // that the inside of the deposit reaches at least
-// As in walls.cpp: a particle this close behind a plate's line is still in front of it.
-constexpr double penetration_allowed = 0.25; // dl
-constexpr double past_end = 0.5;             // dl, to which a plate mirrors beyond its ends
+constexpr double past_end = 0.5;      // dl, to which a plate mirrors beyond its ends
 
 constexpr double pi = 3.14159265358979323846;
 

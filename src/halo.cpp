@@ -1,7 +1,6 @@
 #include "halo.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gp {
 

@@ -21,7 +21,7 @@ struct gp_sim {
     gp::io::OutputPosition left_off; // of a checkpoint that this was loaded from, until an output is open again
 
     // What views point to, and the last measured state; good while the epoch is the same.
-    gp::Field<double> derived[15];
+    gp::Field<double> derived[14];
     gp_state state{};
     uint32_t state_parts = 0;
     uint64_t state_epoch = std::numeric_limits<uint64_t>::max();

@@ -11,7 +11,7 @@
 namespace gp {
 
 struct Mirrors {
-    NeighborList of_ghost;        // particles and images of each ghost (close_count unused)
+    NeighborList of_ghost;        // particles and images of each ghost
     Field<int64_t> contact_start; // entries of contact c: contact_start[c] .. contact_start[c + 1]
     Field<int32_t> ghost;         // of an entry
     Field<int64_t> place;         // of an entry in of_ghost.index

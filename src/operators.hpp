@@ -6,7 +6,6 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
-#include <cstdint>
 
 #include "geometry.hpp"
 #include "kernel.hpp"

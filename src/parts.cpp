@@ -72,9 +72,8 @@ std::vector<double> least_of_all(Crossing &crossing, const std::vector<double> &
 }
 
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest) {
-    constexpr int most = 4;
-    std::array<Whole, most * bins::count> wholes;
-    std::array<double, most + 1> tops;
+    std::array<Whole, most_sums * bins::count> wholes;
+    std::array<double, most_sums + 1> tops;
     auto *next = wholes.data();
     for (int k = 0; k < n_sums; ++k) {
         next = std::copy(sums[k].wholes.begin(), sums[k].wholes.end(), next);
@@ -215,8 +214,9 @@ std::unique_ptr<World> begin_part(const Scene &scene, Crossing &crossing) {
 
 namespace {
 
-// Work of the busiest process over the mean, from which on the cells are dealt out anew.
+// Work of the busiest process over the mean, from which on the cells are dealt out anew; after so many new lists it is looked at.
 constexpr double most_uneven = 1.05;
+constexpr int lists_between = 10;
 
 void deal_out_anew(World &world, const CellFrame &frame) {
     Particles &p = world.particles;
@@ -284,7 +284,7 @@ void go_to_owners(World &world, const CellFrame &frame) {
     Crossing &crossing = *world.crossing;
     Particles &p = world.particles;
     PartShare &share = world.share;
-    if (!share.dealt || (++share.lists >= share.lists_between && is_uneven(world))) {
+    if (!share.dealt || (++share.lists >= lists_between && is_uneven(world))) {
         deal_out_anew(world, frame);
         share = {};
         share.dealt = true;

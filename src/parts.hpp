@@ -32,7 +32,8 @@ int64_t sum_of_all(Crossing &crossing, int64_t count);
 // ones. Empty where there is none.
 std::vector<double> least_of_all(Crossing &crossing, const std::vector<double> &own, int64_t numbers, int64_t keys);
 
-// Sums, and the largest of a number of each process: of all.
+// Sums, no more than so many, and the largest of a number of each process: of all.
+constexpr int most_sums = 4;
 void combine_sums(Crossing &crossing, BinnedSum *sums, int n_sums, double &largest);
 
 // The extremes, sums and loads of a step, and what it adds to the ledger: of all parts.

@@ -65,9 +65,12 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
     // clang-format off
     return {
         // name, when the scene needs it, why, why not, function, whether it has work now, what it says when not
+        // reads how fast particles and plates are, what is left of the run; writes the clock's dt
         {"choose_dt", true, "every scene has a clock", "", stages::choose_dt, nullptr, ""},
+        // writes where plates and their ghosts are in this step, and how they move
         {"move_plates", t.plates, "a plate moves", no_plates,
          stages::move_plates, plates_move, "no plate moves now"},
+        // reads position; if the lists have run out, sorts the particles and makes lists, images, contacts, ghosts
         {"update_neighbors", t.particles, "particles interact", no_particles, stages::update_neighbors, nullptr, ""},
         // reads what moved, by how the step before ended; writes who is awake
         {"wake", sleep, "sleep is 1: what nothing reaches is left out", no_sleep, stages::wake, nullptr, ""},
@@ -113,10 +116,11 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads pressure; writes velocity, position
         {"side_wall_friction", t.particles && t.side_walls, "channel_width > 0 and channel_friction > 0",
          t.particles ? no_side_walls : no_particles, stages::side_wall_friction, awake, all_sleep},
-        // reads position, velocity, what flows and is crowded; writes velocity, position
+        // writes position, velocity of the images; reads these, what flows and is crowded; writes velocity, position
         {"collide", t.particles && t.collisions,
          by_number_density(t.scheme) ? "collision_distance > 0" : "collision_distance > 0; what flows collides",
          "collision_distance is 0", stages::collide, awake, all_sleep},
+        // reads position, velocity; writes velocity, position
         {"wall_contact", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
          stages::wall_contact, awake_near, no_work},
         // reads velocity, stress; writes who rests, and the velocity of what falls asleep
@@ -125,6 +129,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"update_images", t.particles && (t.periodic || t.parts),
          t.parts ? "other processes have particles, too" : "the scene is periodic in x", t.particles ? not_periodic : no_particles,
          stages::update_images, awake, all_sleep},
+        // reads contact forces, velocity; writes ledger, loads, extremes, and moves loaded plates by their loads
         {"account", t.particles, "energy ledger, loads, extremes", no_particles, stages::account, nullptr, ""},
     };
     // clang-format on
@@ -285,9 +290,9 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     optional("neighbor_lists", t.scheme != Scheme::adjoint, "operators on single particles",
              "the default scheme's operators work on clusters", world.neighbors.bytes());
     common("list_origin", world.list_origin.bytes() + world.tiles.bytes());
-    entries.push_back(field_entry("images", t.particles && t.periodic,
-                                  t.periodic ? "the scene is periodic in x" : "the scene is not periodic",
-                                  world.images.bytes()));
+    optional("images", t.periodic || t.parts,
+             t.parts ? "other processes have particles, too" : "the scene is periodic in x",
+             "the scene is not periodic", world.images.bytes() + (world.halo ? world.halo->bytes() : 0));
     optional("viscous_system", t.scheme == Scheme::implicit, "the implicit solve's operators and vectors",
              "no implicit solve", world.viscous.bytes() + world.mirrors.bytes());
     optional("sleep", t.sleep, "sleep is 1: how long it has rested, spans and loads of what sleeps", "sleep is 0",

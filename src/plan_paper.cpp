@@ -13,7 +13,7 @@ std::vector<PlannedStage> paper_stages(const Traits &t, const std::vector<Planne
         rows.same("move_plates"),
         rows.same("update_neighbors"),
         rows.same("keep_fields"),
-        // writes u*, r* (3.14, 3.15)
+        // writes u*, r* (3.14, 3.15), those of the images, too
         rows.particles("predict", "gravity first, then the forces", stages::predict),
         // reads position; writes density, pressure (2.4, 2.8)
         rows.particles("number_density", "density by the particle number density", stages::number_density),
@@ -56,7 +56,7 @@ std::vector<PlannedStage> paper_local_stages(const Traits &t, const std::vector<
         rows.walls("wall_viscous_stress", stages::wall_viscous_stress),
         // reads viscous stress; writes acceleration
         rows.particles("viscous_force", "divergence of the viscous stress", stages::viscous_force),
-        // reads acceleration; writes u*, r*
+        // reads acceleration; writes u*, r*, those of the images, too
         rows.particles("predict", "gravity and viscous force first, then the pressure", stages::predict_with_viscosity),
         // reads position; writes density, pressure (2.4, 2.8)
         rows.particles("number_density", "density by the particle number density", stages::number_density),

@@ -1,6 +1,5 @@
 #include "plate.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gp {

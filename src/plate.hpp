@@ -55,7 +55,7 @@ public:
         Motion motion;
     };
     const State &state() const { return state_; }
-    void set_state(const State &state) { state_ = state; }
+    State &state() { return state_; }
 
     // Its pose at `time`, and its mean motion in the step that follows.
     void place(double time, double dt);

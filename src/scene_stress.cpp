@@ -8,7 +8,6 @@
 // it go as waves of tension, in which a face that its friction could hold crumbled.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "scene.hpp"
 

@@ -269,18 +269,17 @@ void Sim::resume(std::unique_ptr<World> world, const Progress &progress) {
     wall_seconds_ = progress.wall_seconds;
 }
 
-void Sim::require_steppable() const {
+void Sim::require_steppable() {
     if (diverged_)
         throw make_error(GP_E_STATE, "the simulation has diverged and cannot be stepped");
-    Sim &self = const_cast<Sim &>(*this);
-    self.prepare();
+    prepare();
     check_demanded_step();
     if (world_->clock.step == 0)
         stages::require_moderate_flow(*world_);
     if (const std::string note = warnings_.note_of_scene(*world_); !note.empty())
         log(GP_LOG_INFO, note);
-    warn(self.warnings_.of_scene(*world_));
-    self.started_ = true;
+    warn(warnings_.of_scene(*world_));
+    started_ = true;
 }
 
 void Sim::check_demanded_step() const {

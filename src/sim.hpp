@@ -77,7 +77,9 @@ public:
 
 private:
     void require_unstarted(const char *call) const;
-    void require_steppable() const;
+    // An open output has written the scene: from then on plates and gravity change within the world that it is of.
+    bool is_scene_fixed() const { return started_ || sink; }
+    void require_steppable();
     void scene_changed();
     void check_demanded_step() const;
     void run_stages();

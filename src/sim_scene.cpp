@@ -1,6 +1,5 @@
 // What the host adds to the scene, and what it does to plates and gravity before and during a run.
 #include <algorithm>
-#include <cmath>
 
 #include "check.hpp"
 #include "ledger.hpp"
@@ -13,8 +12,9 @@ namespace gp {
 void Sim::require_unstarted(const char *call) const {
     if (started_)
         throw make_error(GP_E_STATE,
-                         "%s: the scene is fixed once the first step is taken (step %lld): add to it before", call,
-                         static_cast<long long>(world_->clock.step));
+                         "%s: the scene is fixed once the first step is taken (step %lld), or a plate or gravity set "
+                         "while an output is open: add to it before",
+                         call, static_cast<long long>(world_->clock.step));
     if (sink)
         throw make_error(GP_E_STATE,
                          "%s: the scene is fixed while an output is open: add to it before, or close the output", call);
@@ -96,7 +96,8 @@ void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
     const Motion motion{{vx, vy}, omega};
     require_tangential(scene_.plates()[plate], motion, "plate");
     scene_.require_room_to_turn(scene_.plates()[plate], motion, "plate");
-    if (started_) {
+    if (is_scene_fixed()) {
+        started_ = true;
         Plate &driven = world_->walls.plates[plate];
         driven.drive(world_->clock.time, motion);
         if (driven.gap <= 0) // the lists and the step's size count on the span from the next step on
@@ -112,9 +113,10 @@ void Sim::set_gravity(double gx, double gy) {
     require_finite("gx", gx);
     require_finite("gy", gy);
     const Vector gravity(gx, gy);
-    if (started_) {
+    if (is_scene_fixed()) {
         if (gravity == world_->constants.gravity)
             return;
+        started_ = true;
         change_gravity(*world_, gravity);
         if (world_->sleep.in_use)
             stages::wake_all(*world_);

@@ -84,7 +84,7 @@ void for_each_turn(Crossing &crossing, int64_t count, const std::function<void(i
 void collect_numbers(Crossing &crossing, const double *own, int64_t count,
                      const std::function<void(int64_t all)> &make_room,
                      const std::function<void(const std::vector<double> &piece)> &body) {
-    constexpr int64_t numbers = 3 * 4; // a multiple of the numbers of all items
+    constexpr int64_t numbers = collected_numbers;
     const int64_t all = sum_of_all(crossing, count);
     OnFirst first(crossing);
     first.run([&] { make_room(all); });

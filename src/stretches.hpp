@@ -41,7 +41,9 @@ void key_of_cell(const World &part, int64_t k, int64_t columns, double *key);
 // As many turns on each process as the one needs that has most; of all together no more than stretch_size items are in one.
 void for_each_turn(Crossing &crossing, int64_t count, const std::function<void(int64_t begin, int64_t end)> &body);
 
-// Numbers of this process, in pieces of a size at most, to the first one: body gets those of all, piece by piece.
+// Numbers of this process, in pieces of a size at most, to the first one: body gets those of all, piece by piece, of each process a
+// multiple of so many, or the rest.
+constexpr int64_t collected_numbers = 3 * 4;
 void collect_numbers(Crossing &crossing, const double *own, int64_t count,
                      const std::function<void(int64_t all)> &make_room,
                      const std::function<void(const std::vector<double> &piece)> &body);
@@ -52,6 +54,7 @@ template <class Item> void collect(Crossing *crossing, std::vector<Item> &items)
     if (!crossing)
         return;
     constexpr std::size_t numbers = sizeof(Item) / sizeof(double);
+    static_assert(collected_numbers % numbers == 0, "a piece has whole items");
     std::vector<Item> own;
     own.swap(items);
     collect_numbers(

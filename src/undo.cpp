@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "awake.hpp"
+#include "error.hpp"
 #include "material/compression.hpp"
 
 namespace gp {
@@ -13,10 +14,12 @@ namespace {
 
 // A list without memory of its own: it is made in every step.
 struct FieldList {
-    std::array<Field<double> *, 9> field{};
+    std::array<Field<double> *, 16> field{};
     std::size_t count = 0;
 
     void add(std::initializer_list<Field<double> *> more) {
+        if (more.size() > field.size() - count)
+            throw make_error(GP_E_INTERNAL, "undo: more than %zu fields", field.size());
         for (Field<double> *one : more)
             field[count++] = one;
     }

@@ -62,7 +62,7 @@ struct Walls {
     Field<double> ghost_vx, ghost_vy;              // m/s, extrapolated
     Field<double> ghost_axx, ghost_axy, ghost_ayy; // stress over the full-lattice shape tensor, N/m4 per unit of w r
 
-    NeighborList particles_of_ghost; // (close_count unused)
+    NeighborList particles_of_ghost;
     Field<int32_t> ghost_of_contact; // rows of contacts
     Field<int32_t> contact_start;    // contacts of particle i: contact_start[i] .. contact_start[i + 1]
     Field<Contact> contacts;         // ordered by particle, then chain

@@ -122,7 +122,7 @@ std::string text_of_compression(const World &world, const Compressed &found) {
                               c.sound_speed, by_pressure);
 }
 
-// A particle that has come behind the line of a plate that it sees; -1: none.
+// Of a particle that has come behind the line of a plate that it sees; NULL: none.
 const Contact *passed_contact(const World &world) {
     const Particles &p = world.particles;
     for (const Contact &contact : world.walls.contacts) {

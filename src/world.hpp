@@ -104,8 +104,7 @@ struct ListOrigin {
 struct PartShare {
     bool dealt = false; // whose cells are whose has been settled
     double work = 0;    // s, in stages, since it was
-    int lists = 0;      // made since then; after so many it is looked whether the work has become uneven
-    int lists_between = 10;
+    int lists = 0;      // made since then
 };
 
 struct World {

@@ -638,10 +638,10 @@ module granperi_raw
             type(c_ptr), value :: sim
         end subroutine
 
-        !> The calls that add to the scene are possible until the first step and while no output is open; else
-        !> GP_E_STATE. id: receives the new object's number, counted from 0 per kind; may be NULL. Material 0 (glass
-        !> beads) exists from the start, so the first added one is 1. Columns and sets of particles share one count: it
-        !> is the value of the field GP_FIELD_COLUMN.
+        !> The calls that add to the scene are possible until the first step and while no output is open (nor after it,
+        !> if a plate or gravity was set while it was); else GP_E_STATE. id: receives the new object's number, counted
+        !> from 0 per kind; may be NULL. Material 0 (glass beads) exists from the start, so the first added one is 1.
+        !> Columns and sets of particles share one count: it is the value of the field GP_FIELD_COLUMN.
         function gp_add_material(sim, material, id) bind(c, name="gp_add_material") result(answer)
             import
             type(c_ptr), value :: sim
@@ -684,7 +684,8 @@ module granperi_raw
         end function
 
         !> The host drives the plate at this velocity (m/s) from now on, from where it is; replaces constant velocity or
-        !> table. Possible at any time, also from a callback.
+        !> table. Possible at any time, also from a callback. Before the first step, and while no output is open, it is
+        !> the scene's.
         function gp_set_plate_velocity(sim, plate, vx, vy) bind(c, name="gp_set_plate_velocity") result(answer)
             import
             type(c_ptr), value :: sim
@@ -708,15 +709,15 @@ module granperi_raw
         end function
 
         !> Gravity (m/s2) from now on, for a box that is tilted or shaken, in its own frame, or gravity that sets in or
-        !> ends. Finite. Possible at any time, also from a callback, with every scheme. Before the first step it
-        !> replaces gp_config.gravity_x and gravity_y: columns begin in balance with it and the sound speed is made for
-        !> it. After it - stresses and velocities are what they were: a jump makes elastic waves as a blow does. Turning
-        !> it by small angles, such as once per step or per 0.1 degrees, does not; - gp_state.potential goes on without
-        !> a jump, so that the energy ledger closes; - gp_state.at_rest is 0 for some 90 steps at least. Setting what it
-        !> is already changes nothing; - the sound speed stays: gp_set_log warns if the scene can now fall so fast that
-        !> it compresses by more than 3 %; then set gp_config.sound_speed, 0 is made for the first gravity alone. Costs
-        !> about a twentieth of a step. gp_save keeps it. Result files have it frame by frame (gp_state.gravity_x,
-        !> gravity_y).
+        !> ends. Finite. Possible at any time, also from a callback, with every scheme. Before the first step, and while
+        !> no output is open, it replaces gp_config.gravity_x and gravity_y: columns begin in balance with it and the
+        !> sound speed is made for it. After it - stresses and velocities are what they were: a jump makes elastic waves
+        !> as a blow does. Turning it by small angles, such as once per step or per 0.1 degrees, does not; -
+        !> gp_state.potential goes on without a jump, so that the energy ledger closes; - gp_state.at_rest is 0 for some
+        !> 90 steps at least. Setting what it is already changes nothing; - the sound speed stays: gp_set_log warns if
+        !> the scene can now fall so fast that it compresses by more than 3 %; then set gp_config.sound_speed, 0 is made
+        !> for the first gravity alone. Costs about a twentieth of a step. gp_save keeps it. Result files have it frame
+        !> by frame (gp_state.gravity_x, gravity_y).
         function gp_set_gravity(sim, gx, gy) bind(c, name="gp_set_gravity") result(answer)
             import
             type(c_ptr), value :: sim

@@ -323,7 +323,8 @@ GP_API gp_status gp_create(const gp_config *config, gp_sim **sim);
 /* Frees it, closing its output. NULL is fine. Ignored when called from inside its own callback. */
 GP_API void gp_destroy(gp_sim *sim);
 
-/* The calls that add to the scene are possible until the first step and while no output is open; else GP_E_STATE.
+/* The calls that add to the scene are possible until the first step and while no output is open (nor after it, if a plate or
+ * gravity was set while it was); else GP_E_STATE.
  * id: receives the new object's number, counted from 0 per kind; may be NULL.
  * Material 0 (glass beads) exists from the start, so the first added one is 1. Columns and sets of particles share
  * one count: it is the value of the field GP_FIELD_COLUMN. */
@@ -340,7 +341,7 @@ GP_API gp_status gp_add_particles(gp_sim *sim, int32_t material, int64_t n, cons
 GP_API gp_status gp_add_plate(gp_sim *sim, const gp_plate *plate, int32_t *id);
 
 /* The host drives the plate at this velocity (m/s) from now on, from where it is; replaces constant velocity or table.
- * Possible at any time, also from a callback. */
+ * Possible at any time, also from a callback. Before the first step, and while no output is open, it is the scene's. */
 GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, double vy);
 
 /* The same for any rigid motion: the plate's pivot moves at (vx, vy), m/s, and the plate turns about it at omega, rad/s,
@@ -348,8 +349,8 @@ GP_API gp_status gp_set_plate_velocity(gp_sim *sim, int32_t plate, double vx, do
 GP_API gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, double omega);
 
 /* Gravity (m/s2) from now on, for a box that is tilted or shaken, in its own frame, or gravity that sets in or ends. Finite.
- * Possible at any time, also from a callback, with every scheme. Before the first step it replaces gp_config.gravity_x and
- * gravity_y: columns begin in balance with it and the sound speed is made for it. After it
+ * Possible at any time, also from a callback, with every scheme. Before the first step, and while no output is open, it
+ * replaces gp_config.gravity_x and gravity_y: columns begin in balance with it and the sound speed is made for it. After it
  *   - stresses and velocities are what they were: a jump makes elastic waves as a blow does. Turning it by small angles, such
  *     as once per step or per 0.1 degrees, does not;
  *   - gp_state.potential goes on without a jump, so that the energy ledger closes;

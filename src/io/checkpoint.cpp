@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
 
 #include "check.hpp"
 #ifdef GP_WITH_HDF5
+#include "io/checkpoint_items.hpp"
 #include "io/checkpoint_parts.hpp"
 #include "io/checkpoint_rows.hpp"
 #include "io/checkpoint_scene.hpp"
@@ -52,36 +55,8 @@ void write_common(CheckpointWriter &file, const World &world) {
     }
     exchange_lists(file, lists);
 
-    PlateMotionTable t;
-    for (const Plate &plate : world.walls.plates) {
-        const Plate::State &m = plate.state();
-        t.driven.push_back(m.driven);
-        t.driven_since.push_back(m.driven_since);
-        t.driven_from_x.push_back(m.driven_from.shift.x());
-        t.driven_from_y.push_back(m.driven_from.shift.y());
-        t.driven_from_angle.push_back(m.driven_from.angle);
-        t.driven_vx.push_back(m.driven_motion.velocity.x());
-        t.driven_vy.push_back(m.driven_motion.velocity.y());
-        t.driven_omega.push_back(m.driven_motion.omega);
-        t.fallen.push_back(m.fallen);
-        t.fall_speed.push_back(m.fall_speed);
-        t.wrapped.push_back(m.wrapped);
-        t.x.push_back(m.placed.shift.x());
-        t.y.push_back(m.placed.shift.y());
-        t.angle.push_back(m.placed.angle);
-        t.vx.push_back(m.motion.velocity.x());
-        t.vy.push_back(m.motion.velocity.y());
-        t.omega.push_back(m.motion.omega);
-        t.fx.push_back(plate.force.x());
-        t.fy.push_back(plate.force.y());
-        t.torque.push_back(plate.torque);
-        t.torque_pivot.push_back(plate.torque_pivot);
-        t.impulse_x.push_back(plate.impulse.x());
-        t.impulse_y.push_back(plate.impulse.y());
-        t.impulse_torque.push_back(plate.impulse_torque);
-        t.gap.push_back(plate.gap);
-    }
-    exchange_motions(file, t);
+    file.group("/plate_motions");
+    write_items(file, world.walls.plates, [](const auto &visit) { for_each_of_motion(visit); });
     exchange_ghosts(file, world);
     PieceTable pieces;
     for (const Piece &piece : world.pieces) {
@@ -187,7 +162,7 @@ ListTable read_lists(CheckpointReader &file, const Checker &check, World &w) {
         state.placed = {{t.plate_x[k], t.plate_y[k]}, t.plate_angle[k]};
         state.driven = t.plate_driven[k] != 0;
         state.driven_motion = {{t.plate_vx[k], t.plate_vy[k]}, t.plate_omega[k]};
-        w.walls.plates[k].set_state(state);
+        w.walls.plates[k].state() = state;
     }
     w.walls.place_facets();
     w.skin = t.skin;
@@ -236,36 +211,15 @@ void read_particles(CheckpointReader &file, const Checker &check, const Scene &s
 }
 
 void read_motions(CheckpointReader &file, const Checker &check, World &w) {
-    PlateMotionTable t;
-    exchange_motions(file, t);
-    const std::size_t n = w.walls.plates.size();
-    check.same_size("plate_motions", t.driven, n);
-    for (const auto *array : t.numbers()) {
-        check.same_size("plate_motions", *array, n);
-        check.all_finite("plate_motions", *array);
-    }
-    check.same_size("plate_motions", t.gap, n);
-    for (std::size_t k = 0; k < n; ++k) {
-        check.require(!std::isnan(t.gap[k]), "gap: not a number");
-        Plate &plate = w.walls.plates[k];
-        Plate::State state;
-        state.driven = t.driven[k] != 0;
-        state.driven_since = t.driven_since[k];
-        state.driven_from = {{t.driven_from_x[k], t.driven_from_y[k]}, t.driven_from_angle[k]};
-        state.driven_motion = {{t.driven_vx[k], t.driven_vy[k]}, t.driven_omega[k]};
-        state.fallen = t.fallen[k];
-        state.fall_speed = t.fall_speed[k];
-        state.wrapped = t.wrapped[k];
-        state.placed = {{t.x[k], t.y[k]}, t.angle[k]};
-        state.motion = {{t.vx[k], t.vy[k]}, t.omega[k]};
-        plate.set_state(state);
-        plate.force = {t.fx[k], t.fy[k]};
-        plate.torque = t.torque[k];
-        plate.torque_pivot = t.torque_pivot[k];
-        plate.impulse = {t.impulse_x[k], t.impulse_y[k]};
-        plate.impulse_torque = t.impulse_torque[k];
-        plate.gap = t.gap[k];
-    }
+    file.group("/plate_motions");
+    read_items(file, check, w.walls.plates, [](const auto &visit) { for_each_of_motion(visit); });
+    for_each_of_motion([&](const char *name, const auto &number) {
+        for (const Plate &plate : w.walls.plates)
+            if (const double value = std::invoke(number, plate); std::strcmp(name, "gap") != 0)
+                check.finite(name, value);
+            else
+                check.require(!std::isnan(value), "gap: not a number");
+    });
     w.walls.place_facets();
 }
 

@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/hdf5_writer.hpp"
+#include "io/hdf5_file.hpp"
 #include "io/safe_file.hpp"
 
 namespace gp::io {
@@ -66,7 +66,7 @@ template <class T> hid_t native_type() {
 struct CheckpointStore;
 
 // Writer and reader have the same calls, so that one description of a part serves both.
-class CheckpointWriter : private Hdf5Writer {
+class CheckpointWriter : private Hdf5File {
 public:
     static constexpr bool reads = false;
 
@@ -109,7 +109,7 @@ private:
     Id group_;
 };
 
-class CheckpointReader : private Hdf5Writer {
+class CheckpointReader : private Hdf5File {
 public:
     static constexpr bool reads = true;
 

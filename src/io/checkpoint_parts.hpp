@@ -1,8 +1,7 @@
-// What a checkpoint consists of, each part described once for writing and reading. Only checkpoint.cpp and
-// checkpoint_scene.cpp include this.
+// What a checkpoint consists of, each part described once for writing and reading. Only the files that write and read
+// checkpoints include this.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "io/checkpoint_file.hpp"
@@ -11,24 +10,6 @@
 #include "sim.hpp"
 
 namespace gp::io {
-
-struct MaterialTable {
-    std::vector<double> grain_density, volume_fraction, grain_diameter, mu_s, mu_2, i0, nonlocal_amplitude,
-        fluidity_time, k0;
-};
-
-template <class File, class Table> void exchange_materials(File &file, Table &t) {
-    file.group("/materials");
-    file.array("grain_density", t.grain_density);
-    file.array("volume_fraction", t.volume_fraction);
-    file.array("grain_diameter", t.grain_diameter);
-    file.array("mu_s", t.mu_s);
-    file.array("mu_2", t.mu_2);
-    file.array("i0", t.i0);
-    file.array("nonlocal_amplitude", t.nonlocal_amplitude);
-    file.array("fluidity_time", t.fluidity_time);
-    file.array("k0", t.k0);
-}
 
 // Columns as they were added; and sets of particles, which have their initial positions and velocities one after the other.
 struct BodyTable {
@@ -209,69 +190,54 @@ template <class P, class Body> void for_each_particle_array(P &p, const Body &bo
         Repose::for_each(p.repose, body);
 }
 
-struct PlateMotionTable {
-    std::vector<int32_t> driven;
-    std::vector<double> driven_since, driven_from_x, driven_from_y, driven_from_angle, driven_vx, driven_vy,
-        driven_omega;
-    std::vector<double> fallen, fall_speed, wrapped;
-    std::vector<double> x, y, angle, vx, vy, omega; // shift, turn and motion
-    std::vector<double> fx, fy, torque, torque_pivot, impulse_x, impulse_y, impulse_torque, gap;
-
-    // All but gap, which may be infinite, and driven.
-    std::vector<std::vector<double> *> numbers() {
-        return {&driven_since,
-                &driven_from_x,
-                &driven_from_y,
-                &driven_from_angle,
-                &driven_vx,
-                &driven_vy,
-                &driven_omega,
-                &fallen,
-                &fall_speed,
-                &wrapped,
-                &x,
-                &y,
-                &angle,
-                &vx,
-                &vy,
-                &omega,
-                &fx,
-                &fy,
-                &torque,
-                &torque_pivot,
-                &impulse_x,
-                &impulse_y,
-                &impulse_torque};
-    }
-};
-
-template <class File, class Table> void exchange_motions(File &file, Table &t) {
-    file.group("/plate_motions");
-    file.array("driven", t.driven);
-    file.array("driven_since", t.driven_since);
-    file.array("driven_from_x", t.driven_from_x);
-    file.array("driven_from_y", t.driven_from_y);
-    file.array("driven_from_angle", t.driven_from_angle);
-    file.array("driven_vx", t.driven_vx);
-    file.array("driven_vy", t.driven_vy);
-    file.array("driven_omega", t.driven_omega);
-    file.array("fallen", t.fallen);
-    file.array("fall_speed", t.fall_speed);
-    file.array("wrapped", t.wrapped);
-    file.array("x", t.x);
-    file.array("y", t.y);
-    file.array("angle", t.angle);
-    file.array("vx", t.vx);
-    file.array("vy", t.vy);
-    file.array("omega", t.omega);
-    file.array("fx", t.fx);
-    file.array("fy", t.fy);
-    file.array("torque", t.torque);
-    file.array("torque_pivot", t.torque_pivot);
-    file.array("impulse_x", t.impulse_x);
-    file.array("impulse_y", t.impulse_y);
-    file.array("impulse_torque", t.impulse_torque);
-    file.array("gap", t.gap);
+// Of every plate: visit(name, number), number(plate) being a reference.
+template <class Visit> void for_each_of_motion(const Visit &visit) {
+    visit(
+        "driven", [](auto &p) -> auto & { return p.state().driven; });
+    visit(
+        "driven_since", [](auto &p) -> auto & { return p.state().driven_since; });
+    visit(
+        "driven_from_x", [](auto &p) -> auto & { return p.state().driven_from.shift.x(); });
+    visit(
+        "driven_from_y", [](auto &p) -> auto & { return p.state().driven_from.shift.y(); });
+    visit(
+        "driven_from_angle", [](auto &p) -> auto & { return p.state().driven_from.angle; });
+    visit(
+        "driven_vx", [](auto &p) -> auto & { return p.state().driven_motion.velocity.x(); });
+    visit(
+        "driven_vy", [](auto &p) -> auto & { return p.state().driven_motion.velocity.y(); });
+    visit(
+        "driven_omega", [](auto &p) -> auto & { return p.state().driven_motion.omega; });
+    visit(
+        "fallen", [](auto &p) -> auto & { return p.state().fallen; });
+    visit(
+        "fall_speed", [](auto &p) -> auto & { return p.state().fall_speed; });
+    visit(
+        "wrapped", [](auto &p) -> auto & { return p.state().wrapped; });
+    visit(
+        "x", [](auto &p) -> auto & { return p.state().placed.shift.x(); });
+    visit(
+        "y", [](auto &p) -> auto & { return p.state().placed.shift.y(); });
+    visit(
+        "angle", [](auto &p) -> auto & { return p.state().placed.angle; });
+    visit(
+        "vx", [](auto &p) -> auto & { return p.state().motion.velocity.x(); });
+    visit(
+        "vy", [](auto &p) -> auto & { return p.state().motion.velocity.y(); });
+    visit(
+        "omega", [](auto &p) -> auto & { return p.state().motion.omega; });
+    visit(
+        "fx", [](auto &p) -> auto & { return p.force.x(); });
+    visit(
+        "fy", [](auto &p) -> auto & { return p.force.y(); });
+    visit("torque", &Plate::torque);
+    visit("torque_pivot", &Plate::torque_pivot);
+    visit(
+        "impulse_x", [](auto &p) -> auto & { return p.impulse.x(); });
+    visit(
+        "impulse_y", [](auto &p) -> auto & { return p.impulse.y(); });
+    visit("impulse_torque", &Plate::impulse_torque);
+    visit("gap", &Plate::gap); // may be infinite
 }
 
 // Which ghosts there are follows from the lists, and where they are from their plates: as these were then, or are now. But in the

@@ -3,43 +3,26 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/checkpoint_items.hpp"
 #include "io/checkpoint_parts.hpp"
+#include "io/material_names.hpp"
 
 namespace gp::io {
 
 namespace {
 
-// Calls body(column, number) for each parameter of a material, whose column it is in the table.
-template <class Table, class Material, class Body> void for_each_parameter(Table &t, Material &m, const Body &body) {
-    body(t.grain_density, m.grain_density);
-    body(t.volume_fraction, m.volume_fraction);
-    body(t.grain_diameter, m.grain_diameter);
-    body(t.mu_s, m.mu_s);
-    body(t.mu_2, m.mu_2);
-    body(t.i0, m.i0);
-    body(t.nonlocal_amplitude, m.nonlocal_amplitude);
-    body(t.fluidity_time, m.fluidity_time);
-    body(t.k0, m.k0);
-}
-
 void write_materials(CheckpointWriter &file, const Scene &scene) {
-    MaterialTable materials;
-    for (const gp_material &m : scene.materials())
-        for_each_parameter(materials, m, [](auto &column, double number) { column.push_back(number); });
-    exchange_materials(file, materials);
+    file.group("/materials");
+    write_items(file, scene.materials(), [](const auto &visit) { for_each_of_material(visit); });
 }
 
 void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
-    MaterialTable t;
-    exchange_materials(file, t);
-    const std::size_t n = t.grain_density.size();
-    gp_material m = default_material();
-    for_each_parameter(t, m, [&](const auto &column, double) { check.same_size("materials", column, n); });
-    check.require(n > 0, "no material 0");
-    for (std::size_t k = 1; k < n; ++k) { // the first one is there
-        for_each_parameter(t, m, [&](const auto &column, double &number) { number = column[k]; });
-        sim.add_material(m);
-    }
+    file.group("/materials");
+    const std::vector<gp_material> materials =
+        read_items(file, check, default_material(), [](const auto &visit) { for_each_of_material(visit); });
+    check.require(!materials.empty(), "no material 0");
+    for (std::size_t k = 1; k < materials.size(); ++k) // the first one is there
+        sim.add_material(materials[k]);
 }
 
 void write_bodies(CheckpointWriter &file, const Scene &scene) {

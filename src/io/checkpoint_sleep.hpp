@@ -3,11 +3,9 @@
 #pragma once
 
 #include <algorithm>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
-#include "io/checkpoint_checks.hpp"
+#include "io/checkpoint_items.hpp"
 #include "stretches.hpp"
 
 namespace gp::io {
@@ -45,12 +43,7 @@ inline std::vector<MeanLoad> loads_of_all(const World &world) {
 
 inline void write_loads(CheckpointWriter &file, const std::vector<MeanLoad> &loads) {
     file.group("/sleep");
-    for_each_of_load([&](const char *name, auto member) {
-        std::vector<std::decay_t<decltype(std::declval<MeanLoad>().*member)>> values;
-        for (const MeanLoad &load : loads)
-            values.push_back(load.*member);
-        file.array(name, values);
-    });
+    write_items(file, loads, [](const auto &visit) { for_each_of_load(visit); });
 }
 
 // Particles have been read: of several processes each keeps the loads of its own.
@@ -59,22 +52,14 @@ inline void read_sleep(CheckpointReader &file, const Checker &check, World &worl
     for (int64_t i = 0; i < p.count; ++i)
         check.require_each(p.repose.asleep[i] == 0 || (p.vx[i] == 0 && p.vy[i] == 0),
                            [] { return std::string("a particle that sleeps and moves"); });
-    std::vector<MeanLoad> loads;
     file.group("/sleep");
-    for_each_of_load([&](const char *name, auto member) {
-        std::vector<std::decay_t<decltype(std::declval<MeanLoad>().*member)>> values;
-        file.array(name, values);
-        if (loads.empty()) // the first one says how many there are
-            loads.resize(values.size());
-        check.same_size(name, values, loads.size());
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            check.finite(name, static_cast<double>(values[k]));
-            loads[k].*member = values[k];
-        }
-    });
+    const std::vector<MeanLoad> loads =
+        read_items(file, check, MeanLoad(), [](const auto &visit) { for_each_of_load(visit); });
     std::vector<int64_t> own(p.id.begin(), p.id.begin() + p.count);
     std::sort(own.begin(), own.end());
     for (const MeanLoad &load : loads) {
+        for (const double value : {load.x, load.y, load.couple})
+            check.finite("sleep", value);
         check.require(load.id >= 0 && load.id < world.scene->particle_count(), "a load by no particle");
         check.require(load.plate >= 0 && static_cast<std::size_t>(load.plate) < world.walls.plates.size(),
                       "a load on no plate");

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
-#include "io/hdf5_writer.hpp"
+#include "io/hdf5_file.hpp"
 #include "io/safe_file.hpp"
 
 namespace gp::io {
 
-struct EarlierFrames::Impl : Hdf5Writer {
+struct EarlierFrames::Impl : Hdf5File {
     struct Element {
         std::string name;
         int components;

@@ -7,7 +7,7 @@ namespace gp::io {
 
 namespace {
 
-constexpr int64_t groups_expected = 480; // a table of names in one page: see Store
+constexpr int64_t groups_expected = 480; // a table of names in one page: see FrameStore
 constexpr int64_t links_expected = 6; // what the name of the walls and a link to earlier ones take of a table, in names
 
 // With single precision, positions are kept as 64 bits all the same: 32 would be 5 places for 160 particles in the coordinates
@@ -18,9 +18,16 @@ double position_unit(double spacing) {
 
 } // namespace
 
+std::string group_of_views(int64_t frame) {
+    return format_text("/frames/%06lld", static_cast<long long>(frame - frame % views_per_group));
+}
+std::string group_of_frame(int64_t frame) {
+    return group_of_views(frame) + format_text("/%06lld", static_cast<long long>(frame));
+}
+
 std::vector<RowRequest> row_requests(int64_t count, const std::vector<int> &widths) {
     std::vector<RowRequest> requests;
-    const auto most = static_cast<int64_t>(Hdf5Writer::rows_per_chunk(static_cast<hsize_t>(count)));
+    const auto most = static_cast<int64_t>(Hdf5File::rows_per_chunk(static_cast<hsize_t>(count)));
     std::size_t component = 0;
     for (const int width : widths) {
         for (int64_t first = 0; first < count; first += most)
@@ -62,7 +69,7 @@ void FrameDatasets::make_layout(const FrameHeader &header, const FrameRows &cons
     }
 
     Id particles = make_group("/particles", 1), all = make_group("/particles/all", 20);
-    make_box(header);
+    make_box();
     std::size_t component = 0;
     for (Element &element : elements) {
         const std::string name = element.path() + (element.constant ? "" : "/value");
@@ -152,20 +159,10 @@ void FrameDatasets::write_constant(const Element &element, hid_t dataset, const 
         cells = element.path();
 }
 
-void FrameDatasets::make_box(const FrameHeader &header) const {
+void FrameDatasets::make_box() const {
     const int64_t dimension = 3;
-    char boundary[3][9] = {"none", "none", "none"};
+    const char boundary[3][9] = {"none", "none", "none"}; // as wide as "periodic": H5MD's box would begin at x = 0
     Id box = make_group("/particles/all/box", 1), type = own(H5Tcopy(H5T_C_S1), "describe a text");
-    if (header.periodic_x) {
-        double edges[3] = {0, 0, 0}; // H5MD: placeholders where the boundary is none
-        std::snprintf(boundary[0], sizeof boundary[0], "periodic");
-        for (const auto &[name, value] : header.parameters)
-            edges[0] += name == "periodic_x_max" ? value : name == "periodic_x_min" ? -value : 0;
-        if (!(edges[0] > 0))
-            throw io_failure(path, "write the box", "periodic_x_max has to be larger than periodic_x_min");
-        Id dataset = make_dataset("/particles/all/box/edges", H5T_IEEE_F64LE, {3}, false, 0, "m");
-        check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, edges), "write the box");
-    }
     set_integers(box, "dimension", {}, &dimension);
     check(H5Tset_size(type, sizeof boundary[0]), "describe a text");
     set_attribute(box, "boundary", type, type, {3}, boundary);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/frame_file.hpp"
-#include "io/hdf5_writer.hpp"
+#include "io/hdf5_file.hpp"
 
 namespace gp::io {
 
@@ -21,7 +21,7 @@ struct Element {
     bool is_position() const { return name == "position"; }
 };
 
-struct FrameDatasets : Hdf5Writer {
+struct FrameDatasets : Hdf5File {
     int64_t count = 0, frames = 0; // frames: complete ones
     int compression = 0;
     bool single = false;
@@ -65,7 +65,7 @@ private:
     void make_scene(const std::string &text) const;
     void make_observables(const std::vector<Observable> &all);
     void make_walls(const WallLines &walls);
-    void make_box(const FrameHeader &header) const;
+    void make_box() const;
     void write_constant(const Element &element, hid_t dataset, const FrameRows &rows, std::size_t component);
     const double *pack(const Element &element, const FrameRows &rows, const RowRequest &some);
     template <class See>

@@ -1,6 +1,13 @@
 #include "io/frame_file.hpp"
 
+#include <cerrno>
 #include <filesystem>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "error.hpp"
 #include "io/frame_datasets.hpp"

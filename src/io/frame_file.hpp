@@ -26,6 +26,12 @@
 
 namespace gp::io {
 
+// Views per group. A small group's table of names never has to move, which keeps every change of it a single write.
+constexpr int64_t views_per_group = 256;
+// Of the views of frame `frame` and its neighbours, and of its own.
+std::string group_of_views(int64_t frame);
+std::string group_of_frame(int64_t frame);
+
 struct FrameField {
     const char *name;
     int components;   // 1, or 2 for a vector, which is stored with z = 0
@@ -48,7 +54,6 @@ struct FrameHeader {
     int64_t count; // particles
     double spacing;
     double gravity[2];
-    bool periodic_x; // needs the parameters periodic_x_min and periodic_x_max
     const char *creator_version;
     std::vector<std::pair<std::string, double>> parameters;
     std::vector<Observable> observables = {}; // none: no such dataset

@@ -98,7 +98,6 @@ FrameHeader header_of(const World &world, int64_t count) {
     header.spacing = c.spacing;
     header.gravity[0] = c.gravity.x();
     header.gravity[1] = c.gravity.y();
-    header.periodic_x = false;
     header.creator_version = gp_version_string();
     header.parameters = {{"sound_speed", c.sound_speed},
                          {"horizon", c.horizon},

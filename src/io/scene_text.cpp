@@ -2,6 +2,7 @@
 
 #include "error.hpp"
 #include "io/config_names.hpp"
+#include "io/material_names.hpp"
 
 namespace gp::io {
 
@@ -40,15 +41,7 @@ private:
 
 void add_material(std::string &text, const gp_material &m) {
     Object object(text);
-    object.value("grain_density", m.grain_density);
-    object.value("volume_fraction", m.volume_fraction);
-    object.value("grain_diameter", m.grain_diameter);
-    object.value("mu_s", m.mu_s);
-    object.value("mu_2", m.mu_2);
-    object.value("i0", m.i0);
-    object.value("nonlocal_amplitude", m.nonlocal_amplitude);
-    object.value("fluidity_time", m.fluidity_time);
-    object.value("k0", m.k0);
+    for_each_of_material([&](const char *name, auto number) { object.value(name, m.*number); });
     object.end();
 }
 

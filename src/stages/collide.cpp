@@ -21,7 +21,6 @@
 // layers do as without within their scatter. (All that the mean flow explains left to the velocities, crowded or not, lets
 // collapses at L/dl = 16 run 2 % and their fronts 5 % farther, but inclined layers sink by 1.5 % and pairs without stress overlap.)
 #include <algorithm>
-#include <cmath>
 
 #include "awake.hpp"
 #include "lanes.hpp"

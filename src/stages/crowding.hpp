@@ -5,8 +5,6 @@
 // gradient N, so it is finished there: with two sums more the gradient took 1.08 to 1.1 times as long.
 #pragma once
 
-#include <algorithm>
-
 #include "lanes.hpp"
 #include "world.hpp"
 

@@ -19,7 +19,6 @@
 // loaded lid as well (a hundredth: .990 of the height; none: .998). At once, or within 30 dl / c0 in place of a strain,
 // crowded grains in flight got three times their energy and more.
 #include <algorithm>
-#include <cmath>
 
 #include "awake.hpp"
 #include "lanes.hpp"

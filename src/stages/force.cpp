@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "awake.hpp"
 #include "lanes.hpp"
 #include "operators.hpp"
@@ -125,7 +123,7 @@ GP_INLINE void finish_contact(World &world, Contact &contact, const LaneContacts
     const Facet &facet = world.walls.facets[contact.facet];
     const Segment &s = facet.segment;
     const Tensor through = a - s.tangent.dot(a * s.normal) * s.tangent * s.normal.transpose();
-    const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
+    const bool rough = passes_shear(facet);
     const bool sticks = rough && by_number_density(world.constants.scheme);
     const Tensor &acts = sticks ? a : through, &seen = rough ? a : through;
     contact.force_x = acts(0, 0) * sums.wx[lane] + acts(0, 1) * sums.wy[lane] + sums.tx[lane];

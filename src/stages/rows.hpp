@@ -23,8 +23,7 @@ struct Rows {
     GP_INLINE const int32_t *row(int64_t i) const { return index + start[i]; }
     GP_INLINE int64_t count(int64_t i) const { return start[i + 1] - start[i]; }
 
-    // The plates that particle i sees: none, or a run of contacts. A loop and not a callback, so that its body is compiled
-    // for the instruction set of the function that it stands in.
+    // The plates that particle i sees: none, or a run of contacts.
     struct Run {
         const Contact *first, *last;
         const Contact *begin() const { return first; }
@@ -129,6 +128,7 @@ GP_INLINE void drop_shear(const Facet &facet, double &xx, double &xy, double &yx
 GP_INLINE double shear_of_turn(const Facet &facet, double omega, double sxx, double sxy, double syy) {
     return omega == 0 ? 0.0 : shear_of(facet, -omega * sxy, -omega * syy, omega * sxx, omega * sxy);
 }
+// Only a rough one does: this decides it for all stages, and for every kind of wall.
 GP_INLINE bool passes_shear(const Facet &facet) {
     return facet.spec->friction == GP_WALL_NO_SLIP;
 }

@@ -2,7 +2,6 @@
 //
 // A span sees those of which a particle was within the lists' radius of one of its own when the lists were made: exactly these, not
 // what a cluster sees, whose mates depend on the processes.
-#include <algorithm>
 
 #include "stages/sleep_work.hpp"
 

@@ -33,20 +33,20 @@ void make_lists(World &world);
 // Positions and velocities of the images across the ends of the period.
 void update_images(World &world);
 
-// Ghost velocities through the plates' surfaces.
-void wall_velocity(World &world);
 // Which particles flow.
 void flowing(World &world);
+// Ghost velocities through the plates' surfaces.
+void wall_velocity(World &world);
 // Shape tensor and velocity gradient (Jin et al. 2021, 3.11; the adjoint of 3.10), and the number density of what flows.
 void gradient(World &world);
-// Continuity and equation of state.
-void density(World &world);
 // The same and, over the same pairs, the sums of density_diffusion, which comes next.
 void gradient_and_exchange(World &world);
 // Optional smoothing of the density where the material flows.
 void density_diffusion(World &world);
 // Density of what flows where its particles have come closer than it says.
 void density_of_spacing(World &world);
+// Continuity and equation of state.
+void density(World &world);
 // The pair sums of the granular fluidity.
 void fluidity(World &world);
 // Elastic trial and return map; leaves sigma K^-1.
@@ -96,7 +96,7 @@ void wall_volume_velocity(World &world);
 void pressure_over_shape(World &world);
 // Ghost pressures extrapolated from the particles.
 void wall_isotropic_stress(World &world);
-// The operators of the viscous equations at r^k.
+// The operators of the viscous equations (viscous_operators.hpp) where particles and plates are now, at r^k.
 void viscous_system(World &world);
 // What plates bear of single particles before the solve; what is left to do, or to take back, after it.
 void wall_support(World &world);

@@ -7,6 +7,7 @@
 #include "operators.hpp"
 #include "parallel.hpp"
 #include "stages/rows.hpp"
+#include "stages/stages.hpp"
 #include "stages/viscous_operators.hpp"
 
 namespace gp::stages {
@@ -190,7 +191,7 @@ void make_room(World &world) {
 
 } // namespace
 
-void make_viscous_system(World &world) {
+void viscous_system(World &world) {
     const Particles &p = world.particles;
     ViscousSystem &v = world.viscous;
     make_room(world);

@@ -13,9 +13,6 @@
 
 namespace gp::stages {
 
-// The operators where particles and plates are now.
-void make_viscous_system(World &world);
-
 // e of u. Makes u's images and the ghosts' velocities.
 void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e);
 

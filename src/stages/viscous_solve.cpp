@@ -39,6 +39,7 @@ template <class Term> void add_contacts(const World &world, BinnedSum &sum, cons
 // alone.
 template <std::size_t N>
 std::array<double, N> values_of_all(World &world, std::array<BinnedSum, N> sums, double &largest) {
+    static_assert(N <= most_sums);
     if (world.crossing)
         combine_sums(*world.crossing, sums.data(), static_cast<int>(N), largest);
     std::array<double, N> values;
@@ -374,10 +375,6 @@ void solve(World &world) {
 }
 
 } // namespace
-
-void viscous_system(World &world) {
-    make_viscous_system(world);
-}
 
 void viscous_forecast(World &world) {
     ViscousSystem &v = world.viscous;

@@ -1,10 +1,10 @@
 // What the ghosts behind a plate carry: velocity and stress extrapolated from the particles that see them, after Adami,
 // Hu & Adams (2012). Ghosts that simply carried the plate's velocity would put the no-slip surface about 1.3 dl too deep.
 #include <algorithm>
-#include <cmath>
 
 #include "awake.hpp"
 #include "lanes.hpp"
+#include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -135,8 +135,8 @@ template <bool Sheared> void extrapolate_velocity(World &world) {
         const double distance = std::max(n.dot(way) - w.ghost_distance[k], contact_distance * world.constants.spacing);
         const double ratio = w.ghost_distance[k] / distance;
         const double normal = -normal_ratio * n.dot(relative);
-        // Without friction of its own a plate passes no shear through its surface.
-        const bool rough = w.facets[facet].spec->friction == GP_WALL_NO_SLIP, flows = Sheared && sums.held[lane] == 0;
+        // Only a rough plate passes shear through its surface; along any other ghosts move with the particles.
+        const bool rough = passes_shear(w.facets[facet]), flows = Sheared && sums.held[lane] == 0;
         const double carried = Sheared ? -(flows ? ratio : std::min(ratio, steepest_tangential)) : 0.0;
         const double tangential = (rough ? carried : 1.0) * t.dot(relative);
         const Vector ghost = own + normal * n + tangential * t;

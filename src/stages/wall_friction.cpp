@@ -92,7 +92,7 @@ __attribute__((noinline)) double friction_of(const World &world, const Contact &
                                              double v) {
     const Course course{x, y, u, v};
     const Facet &facet = world.walls.facets[contact.facet];
-    const bool rough = facet.spec->friction == GP_WALL_NO_SLIP;
+    const bool rough = passes_shear(facet);
     // Rough plates in the paper's schemes: by their ghosts.
     if (facet.spec->friction == GP_WALL_FREE_SLIP || (rough && world.constants.scheme != Scheme::adjoint))
         return 0;
@@ -181,7 +181,7 @@ void wall_friction(World &world) {
         const double before = world.ledger.dissipated;
         push_by_plate(world, contact, change * facet.segment.tangent);
         // The plastic part has counted the shear towards the ghosts of a rough plate already; that is taken off the walls'.
-        if (facet.spec->friction == GP_WALL_NO_SLIP)
+        if (passes_shear(facet))
             world.ledger.walls += world.ledger.dissipated - before;
     });
 }

@@ -11,6 +11,7 @@
 
 #include "mps_operators.hpp"
 #include "parallel.hpp"
+#include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -73,8 +74,7 @@ WallState wall_state(const World &world, int64_t k) {
     l *= 2.0 / c.interaction_lattice.number_density;
     state.stress = world.material_of(closest).law.stress({l(0, 0), 0.5 * (l(0, 1) + l(1, 0)), l(1, 1)}, state.pressure);
     const Facet &facet = w.facets[w.ghost_facet[k]];
-    if (facet.spec->friction != GP_WALL_NO_SLIP) {
-        // Such a plate passes on no shear.
+    if (!passes_shear(facet)) {
         const Vector &t = facet.segment.tangent, &n = facet.segment.normal;
         Tensor s;
         s << state.stress.xx, state.stress.xy, state.stress.xy, state.stress.yy;
@@ -115,8 +115,7 @@ void ghost_velocity(World &world) {
         for (int64_t k = begin; k < end; ++k) {
             const Facet &facet = w.facets[w.ghost_facet[k]];
             Vector ghost = w.velocity_at(w.ghost_facet[k], {w.ghost_x[k], w.ghost_y[k]});
-            if (facet.spec->friction != GP_WALL_NO_SLIP) {
-                // Along a plate without friction of its own, ghosts move with the particles.
+            if (!passes_shear(facet)) { // ghosts move with the particles along it
                 double sum = 0;
                 Vector flow = Vector::Zero();
                 for (int64_t e = w.particles_of_ghost.start[k]; e < w.particles_of_ghost.start[k + 1]; ++e) {

@@ -182,6 +182,41 @@ TEST_F(Output, AnEmptySceneHasFramesToo) {
     EXPECT_EQ(frame_times(path).size(), 2u);
 }
 
+// The file has the scene as it was when it was opened: that is the world that goes on.
+TEST_F(Output, KnowsWhatIsSetBeforeTheFirstStep) {
+    Sim sim;
+    add_collapse(sim);
+    ASSERT_EQ(gp_output_open(sim, path.c_str(), nullptr), GP_OK);
+    const double sound_speed = sim.state().sound_speed;
+    ASSERT_EQ(gp_set_gravity(sim, 0, -9.81), GP_OK); // as it is
+    ASSERT_EQ(gp_set_gravity(sim, 0, -1), GP_OK);
+    ASSERT_EQ(gp_set_plate_velocity(sim, 1, 0, 0.3), GP_OK);
+    EXPECT_EQ(sim.state().gravity_y, -1);
+    EXPECT_EQ(sim.state().sound_speed, sound_speed);
+    EXPECT_EQ(sim.state().at_rest, 0);
+    const std::string saved = directory + "/before.gpc";
+    ASSERT_EQ(gp_save(sim, saved.c_str()), GP_OK) << gp_last_error();
+    ASSERT_EQ(gp_step(sim, 10), GP_OK);
+    ASSERT_EQ(gp_output_write(sim), GP_OK);
+    ASSERT_EQ(gp_output_close(sim), GP_OK);
+    gp_load load{};
+    load.struct_size = sizeof load;
+    ASSERT_EQ(gp_get_plate_load(sim, 1, &load), GP_OK);
+    EXPECT_NEAR(load.dy, 0.3 * sim.state().time, 1e-15);
+    const test::Reader file(path);
+    EXPECT_EQ(file.attribute("/parameters", "sound_speed"), std::vector<double>{sim.state().sound_speed});
+    EXPECT_EQ(frame_times(path), std::vector<double>{sim.state().time});
+    const gp_column late = make_column(2, 2, 50, 50);
+    EXPECT_FAILS(gp_add_column(sim, &late, nullptr), GP_E_STATE, "first step");
+
+    Sim loaded;
+    gp_destroy(loaded.handle);
+    ASSERT_EQ(gp_load(saved.c_str(), &loaded.handle), GP_OK) << gp_last_error();
+    EXPECT_EQ(loaded.state().sound_speed, sound_speed);
+    ASSERT_EQ(gp_step(loaded, 10), GP_OK);
+    EXPECT_TRUE(snapshot(loaded, 3) == snapshot(sim, 3));
+}
+
 TEST_F(Output, DoesNotChangeTheRun) {
     std::vector<uint64_t> bits[2];
     for (int k = 0; k < 2; ++k) {

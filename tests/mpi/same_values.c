@@ -330,15 +330,27 @@ static void compare(const scene *s, gp_sim *alone, gp_sim *together) {
     compare_loads(s, alone, together);
 }
 
-/* How often the plane was cut: more than once, where the work has become uneven. */
-static long cuts_of(gp_sim *sim) {
+static gp_plan_entry entry_of(gp_sim *sim, const char *name) {
     gp_plan_entry plan[128];
     int64_t n;
     check(gp_get_plan(sim, 128, plan, &n), "gp_get_plan");
     for (int64_t k = 0; k < n && k < 128; ++k)
-        if (!strcmp(plan[k].name, "cuts"))
-            return (long)plan[k].calls;
-    return 0;
+        if (!strcmp(plan[k].name, name))
+            return plan[k];
+    fprintf(stderr, "the plan has no %s\n", name);
+    MPI_Abort(MPI_COMM_WORLD, 2);
+    return plan[0];
+}
+
+/* The plan knows of the particles that this process sees of others. */
+static void check_images(const scene *s, gp_sim *together) {
+    const gp_plan_entry images = entry_of(together, "images");
+    if (rank == 0 && (!images.active || strcmp(images.reason, "other processes have particles, too")))
+        differ(s, images.reason, 0, images.active);
+    long long own = (long long)images.bytes, all = 0;
+    MPI_Reduce(&own, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
+    if (rank == 0 && ranks > 1 && all == 0)
+        differ(s, "bytes of images", 0, 1);
 }
 
 static long run(const scene *s) {
@@ -365,7 +377,8 @@ static long run(const scene *s) {
                 check(gp_set_gravity(alone, 1.5, -9.6), "gp_set_gravity");
         }
     }
-    const long cuts = cuts_of(together);
+    check_images(s, together);
+    const long cuts = (long)entry_of(together, "cuts").calls; /* more than one where the work has become uneven */
     gp_destroy(together);
     gp_destroy(alone);
     return cuts;

@@ -26,11 +26,12 @@ class CheckpointFileTest : public testing::Test {
 protected:
     // A small scene with all that a checkpoint has: a period, plates with a table, a load and the host's own motion, a set of
     // particles, an output.
-    void save_sample(bool periodic) {
+    void save_sample(bool periodic, bool sleep = false) {
         gp_config config;
         ASSERT_EQ(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT), GP_OK);
         config.threads = 1;
         config.retry_halvings = 3;
+        config.sleep = sleep ? 1 : 0;
         if (periodic)
             config.periodic_x_max = 12 * config.spacing;
         gp_sim *sim = nullptr;
@@ -85,6 +86,21 @@ protected:
     void put(const std::vector<unsigned char> &bytes) {
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char *>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+
+    // The file `good` with the right checksum and a change, used.
+    template <class Change> gp_status use_with(const std::vector<unsigned char> &good, const Change &change) {
+        std::ofstream(image, std::ios::binary)
+            .write(reinterpret_cast<const char *>(good.data()) + text_size,
+                   static_cast<std::streamsize>(good.size() - text_size));
+        const hid_t file = H5Fopen(image.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        change(file);
+        H5Fclose(file);
+        std::vector<unsigned char> bytes = read_file(image);
+        bytes.insert(bytes.begin(), text_size, 0);
+        gp::io::seal(bytes);
+        put(bytes);
+        return use();
     }
 
     const test::TemporaryDirectory temporary{"checkpoint"};
@@ -196,24 +212,47 @@ void change_number(hid_t file, const std::string &group, const std::string &name
     H5Aclose(attribute);
 }
 
+// An array of zeros in the place of another one.
+void replace_array(hid_t file, const std::string &name, hsize_t size) {
+    const hid_t old = H5Dopen2(file, name.c_str(), H5P_DEFAULT), type = H5Dget_type(old),
+                how = H5Dget_create_plist(old);
+    H5Dclose(old);
+    H5Ldelete(file, name.c_str(), H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(1, &size, &size);
+    const hid_t dataset = H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    const std::vector<double> zeros(size);
+    if (size > 0)
+        H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, zeros.data());
+    for (const hid_t id : {dataset, space, type, how})
+        H5Idec_ref(id);
+}
+
+// Items whose numbers stand in arrays of other sizes: also where the first of them is the empty one.
+TEST_F(CheckpointFileTest, ItemsHaveAllOfTheirNumbers) {
+    save_sample(false, true);
+    const std::vector<unsigned char> good = read_file(path);
+    const std::vector<std::string> loads = {"sleep/id", "sleep/plate", "sleep/x", "sleep/y", "sleep/couple"},
+                                   materials = {"materials/grain_density", "materials/mu_s", "materials/k0"};
+    const auto sizes = [&](const std::string &other, hsize_t size) {
+        return use_with(good, [&](hid_t file) {
+            for (const std::string &name : loads)
+                replace_array(file, name, name == other ? size : hsize_t{3});
+        });
+    };
+    EXPECT_EQ(sizes("none", 0), GP_OK) << gp_last_error();
+    for (const std::string &shorter : loads)
+        for (const hsize_t size : {hsize_t{0}, hsize_t{2}})
+            EXPECT_EQ(sizes(shorter, size), GP_E_IO) << shorter << " of " << size;
+    for (const std::string &shorter : materials)
+        EXPECT_EQ(use_with(good, [&](hid_t file) { replace_array(file, shorter, 0); }), GP_E_IO) << shorter;
+}
+
 // A file with the right checksum and one wrong number: it is refused, or does no harm.
 TEST_F(CheckpointFileTest, WrongNumbersDoNoHarm) {
     for (const bool periodic : {false, true}) {
         save_sample(periodic);
         const std::vector<unsigned char> good = read_file(path);
-        const auto with_change = [&](const auto &change) {
-            std::ofstream(image, std::ios::binary)
-                .write(reinterpret_cast<const char *>(good.data()) + text_size,
-                       static_cast<std::streamsize>(good.size() - text_size));
-            const hid_t file = H5Fopen(image.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-            change(file);
-            H5Fclose(file);
-            std::vector<unsigned char> bytes = read_file(image);
-            bytes.insert(bytes.begin(), text_size, 0);
-            gp::io::seal(bytes);
-            put(bytes);
-            return use();
-        };
+        const auto with_change = [&](const auto &change) { return use_with(good, change); };
         Names names;
         ASSERT_EQ(with_change([&](hid_t file) { names = names_in(file); }), GP_OK) << gp_last_error();
         ASSERT_GT(names.arrays.size(), 70u);

@@ -68,7 +68,7 @@ public:
             id[k] = static_cast<double>(k);
             column[k] = static_cast<double>(k % 3);
         }
-        FrameHeader header{n, sample_spacing, {0, -9.81}, false, "1.2.3", {{"cfl", 0.25}, {"spacing", 0.5}}};
+        FrameHeader header{n, sample_spacing, {0, -9.81}, "1.2.3", {{"cfl", 0.25}, {"spacing", 0.5}}};
         header.walls = sample_walls();
         file = std::make_unique<FrameFile>(path, header, fields, std::vector<const double *>{id.data(), column.data()},
                                            compression, single);

@@ -117,17 +117,6 @@ TEST_F(FrameFileTest, FollowsH5md) {
     EXPECT_EQ(r.shape(view(2, "pressure")), "12");
 }
 
-TEST_F(FrameFileTest, PeriodicBoxHasItsEdges) {
-    FrameHeader header{0, 1, {0, 0}, true, "1", {{"periodic_x_min", -1}, {"periodic_x_max", 2}}};
-    const std::vector<FrameField> position = {{"position", 2, false, false, "m"}};
-    FrameFile(h5, header, position, {}, 0, false).close();
-    const Reader r(h5);
-    EXPECT_EQ(r.text_attribute("/particles/all/box", "boundary"), "periodic none none");
-    EXPECT_EQ(r.numbers("/particles/all/box/edges"), (std::vector<double>{3, 0, 0}));
-    header.parameters.clear();
-    EXPECT_TRUE(contains(io_error([&] { FrameFile(h5, header, position, {}, 0, false); }), "periodic_x_max"));
-}
-
 TEST_F(FrameFileTest, ValuesAreExact) {
     for (const int compression : {0, 1, 9})
         for (const bool single : {false, true}) {
@@ -204,7 +193,7 @@ TEST_F(FrameFileTest, RefusesWhatCannotBeWritten) {
     run.file->close();
     EXPECT_TRUE(contains(io_error([&] { run.write(); }), "closed"));
     expect_good(3, 3);
-    const FrameHeader header{0, 1, {0, 0}, false, "1", {}};
+    const FrameHeader header{0, 1, {0, 0}, "1", {}};
     EXPECT_TRUE(contains(io_error([&] {
                              FrameFile(h5, header, {{"pressure", 1, false, false, ""}}, {}, 0, false);
                          }),
@@ -288,7 +277,7 @@ TEST_F(FrameFileTest, LeavesTheHostsErrorHandlerAlone) {
         SampleFile(h5, 3).write();
         EXPECT_NE(io_error([&] { SampleFile(directory + "/none/run.h5", 3); }), "");
         // an error inside HDF5: the name is taken
-        const FrameHeader header{0, 1, {0, 0}, false, "1", {}};
+        const FrameHeader header{0, 1, {0, 0}, "1", {}};
         const std::vector<FrameField> twice = {{"position", 2, false, false, ""}, {"position", 2, false, false, ""}};
         EXPECT_TRUE(contains(io_error([&] { FrameFile(h5, header, twice, {}, 0, false); }), "name already exists"));
     };

@@ -89,7 +89,7 @@ struct Corner {
         stages::update_neighbors(*world);
         stages::wall_volume_velocity(*world);
         test::make_gradient(*world);
-        stages::make_viscous_system(*world);
+        stages::viscous_system(*world);
     }
     VectorField random() {
         VectorField field;

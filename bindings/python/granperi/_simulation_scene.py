@@ -260,7 +260,8 @@ class SimulationScene(SimulationBase):
             check(getattr(lib, "gp_" + name)(engine.sim, whole("plate", plate, 32), *values))
 
     def set_gravity(self, gx: float, gy: float) -> None:
-        """Gravity from now on; possible at any time, also in a callback. Before the first step it replaces the config's.
+        """Gravity from now on; possible at any time, also in a callback. Before the first step, and while no output is open, it
+        replaces the config's.
 
         Args:
             gx, gy: m/s2, to the right and upwards, finite.

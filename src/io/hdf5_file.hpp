@@ -1,4 +1,4 @@
-// Making the objects of an HDF5 file from a library: every error is an exception with HDF5's text and nothing of it on
+// An HDF5 file that a library writes or reads: every error is an exception with HDF5's text and nothing of it on
 // the host's screen, and every identifier closes itself.
 #pragma once
 
@@ -126,19 +126,8 @@ inline Error hdf5_failure(const std::string &of, const std::string &what) {
     return io_failure(of, what, hdf5_text(), lacks ? GP_E_MEMORY : GP_E_IO);
 }
 
-// Views per group. A small group's table of names never has to move, which keeps every change of it a single write.
-constexpr int64_t views_per_group = 256;
-
-// Of the views of frame `frame` and its neighbours, and of its own.
-inline std::string group_of_views(int64_t frame) {
-    return format_text("/frames/%06lld", static_cast<long long>(frame - frame % views_per_group));
-}
-inline std::string group_of_frame(int64_t frame) {
-    return group_of_views(frame) + format_text("/%06lld", static_cast<long long>(frame));
-}
-
-// The calls that make the objects of one file.
-struct Hdf5Writer {
+// One file, and the calls that make its objects.
+struct Hdf5File {
     static constexpr hsize_t particles_per_chunk = 65536;
     static constexpr hsize_t times_per_chunk = 512;
 
