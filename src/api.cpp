@@ -122,8 +122,7 @@ gp_status gp_create(const gp_config *config, gp_sim **sim) {
         require_pointer("sim", sim);
         *sim = nullptr;
         require_level();
-        // Fields that an older program does not know are those of the preset it knows: the default one.
-        *sim = new gp_sim(complete(config, default_config(GP_PRESET_DEFAULT), "gp_config"));
+        *sim = new gp_sim(complete_config(config));
         return GP_OK;
     });
 }

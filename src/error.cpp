@@ -87,7 +87,7 @@ const char *status_text(gp_status status) noexcept {
     case GP_E_IO: return "input or output failed";
     case GP_E_DIVERGED: return "the simulation diverged";
     case GP_E_UNSUPPORTED: return "not supported by this build or version";
-    case GP_E_VERSION: return "made by a newer version";
+    case GP_E_VERSION: return "made by another version";
     case GP_E_INTERNAL: return "internal error";
     default: return "unknown status";
     }

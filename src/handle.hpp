@@ -10,6 +10,7 @@
 #include "entry.hpp"
 #include "error.hpp"
 #include "io/output.hpp"
+#include "scene.hpp"
 #include "sim.hpp"
 
 struct gp_sim {
@@ -59,6 +60,14 @@ template <class T> T complete(const T *given, const T &defaults, const char *nam
                              "%s.struct_size = %u: sets a field that this version (%zu bytes) does not know", name,
                              size, sizeof(T));
     return whole;
+}
+
+// Fields that an older program does not know are those of the preset whose density it asks for.
+inline gp_config complete_config(const gp_config *given) {
+    const gp_config whole = complete(given, default_config(GP_PRESET_DEFAULT), "gp_config");
+    if (whole.density != GP_DENSITY_NUMBER)
+        return whole;
+    return complete(given, default_config(whole.nonlocal ? GP_PRESET_PAPER : GP_PRESET_PAPER_LOCAL), "gp_config");
 }
 
 } // namespace gp

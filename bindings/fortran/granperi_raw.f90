@@ -21,8 +21,8 @@ module granperi_raw
     integer(c_int32_t), parameter :: GP_E_MEMORY = -3 !! out of memory
     integer(c_int32_t), parameter :: GP_E_IO = -4 !! a file could not be created, written or read
     integer(c_int32_t), parameter :: GP_E_DIVERGED = -5
-        !! a value became non-finite or unbounded (see gp_step): the simulation can be read at its last good step and
-        !! destroyed, not stepped
+        !! a value became non-finite or unbounded (see gp_step): the simulation can be read and saved at its last good
+        !! step, not stepped
     integer(c_int32_t), parameter :: GP_E_UNSUPPORTED = -6
         !! the option exists, but this build or version does not have it
     integer(c_int32_t), parameter :: GP_E_VERSION = -7
@@ -147,8 +147,8 @@ module granperi_raw
         real(c_double) :: i0 !! I at which mu is half way between; > 0 [0.3]
         real(c_double) :: nonlocal_amplitude
             !! A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10; glass
-            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default scheme, else
-            !! GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow is mu(I) as well [0]
+            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0 and friction_factor > 0, and spacings of half a grain to
+            !! resolve it; only with the default scheme, else GP_E_UNSUPPORTED. Uniform steady flow is mu(I) as well [0]
         real(c_double) :: fluidity_time !! s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4]
         real(c_double) :: k0
             !! sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over that along

@@ -275,8 +275,8 @@ contains
         real(c_double), intent(in), optional :: i0 !! I at which mu is half way between; > 0 [0.3]
         real(c_double), intent(in), optional :: nonlocal_amplitude
             !! A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10; glass
-            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default scheme, else
-            !! GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow is mu(I) as well [0]
+            !! beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0 and friction_factor > 0, and spacings of half a grain to
+            !! resolve it; only with the default scheme, else GP_E_UNSUPPORTED. Uniform steady flow is mu(I) as well [0]
         real(c_double), intent(in), optional :: fluidity_time
             !! s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4]
         real(c_double), intent(in), optional :: k0

@@ -8,10 +8,10 @@
  *     After an error gp_last_error() holds a text that names the argument, its value and what was expected.
  *   - Unless a call says otherwise, an error leaves the simulation and all outputs as they were;
  *     a handle or count that the call was to fill in is set to NULL or 0.
- *   - Every number passed in is checked. A value outside the stated range is GP_E_ARGUMENT; nothing is ever clamped.
- *   - A struct passed in begins with struct_size and is filled by its _init function first. Structs grow only at
- *     their end: a shorter one (an older program) is completed with defaults, a longer one whose unknown tail is
- *     not zero is GP_E_VERSION.
+ *   - Every number passed in is checked. A value outside the stated range is GP_E_ARGUMENT; nothing is ever clamped. Limits of
+ *     all scenes: positions within 1e12 spacings of the origin, a plate's line shorter than 1e8 spacings, 2 147 483 646 particles.
+ *   - A struct passed in begins with struct_size and is filled by its _init function first. Structs grow only at their end: a
+ *     shorter one (an older program) is completed with defaults, a longer one whose unknown tail is not zero is GP_E_VERSION.
  *   - All input is copied: the caller may free its arrays when the call returns.
  *   - Distinct simulations may be used from distinct threads at the same time. One simulation belongs to one
  *     thread at a time.
@@ -65,8 +65,8 @@ enum {
     GP_E_STATE = -2,       /* the call is out of order, or was made from inside a callback */
     GP_E_MEMORY = -3,      /* out of memory */
     GP_E_IO = -4,          /* a file could not be created, written or read */
-    GP_E_DIVERGED = -5,    /* a value became non-finite or unbounded (see gp_step): the simulation can be read at its last
-                              good step and destroyed, not stepped */
+    GP_E_DIVERGED = -5,    /* a value became non-finite or unbounded (see gp_step): the simulation can be read and
+                              saved at its last good step, not stepped */
     GP_E_UNSUPPORTED = -6, /* the option exists, but this build or version does not have it */
     GP_E_VERSION = -7,     /* a struct or file comes from a newer version, or a checkpoint is in another format */
     GP_E_INTERNAL = -8     /* a defect of the library: please report the text of gp_last_error() */
@@ -204,9 +204,9 @@ typedef struct gp_material {
     double mu_2;            /* friction at large I; >= mu_s [tan 32 deg] */
     double i0;              /* I at which mu is half way between; > 0 [0.3] */
     double nonlocal_amplitude; /* A of the granular fluidity [4], its length over grain_diameter; 0: the local mu(I) law; 0 .. 10;
-                                  glass beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0, friction_factor > 0 and the default
-                                  scheme, else GP_E_UNSUPPORTED; spacings of half a grain to resolve it. Uniform steady flow
-                                  is mu(I) as well [0] */
+                                  glass beads 0.48, discs 0.9. Needs mu_2 > mu_s > 0 and friction_factor > 0, and spacings of
+                                  half a grain to resolve it; only with the default scheme, else GP_E_UNSUPPORTED. Uniform
+                                  steady flow is mu(I) as well [0] */
     double fluidity_time;      /* s, t0 in which the fluidity follows; > 0; only with nonlocal_amplitude [1e-4] */
     double k0;              /* sigma_h / sigma_v with which columns begin (GP_INITIAL_HYDROSTATIC), the stress across over
                                that along the direction in which a column presses; 0: isotropic, or none across as

@@ -42,8 +42,9 @@ extern "C" {
  * MPI_COMM_NULL is GP_E_ARGUMENT. */
 GP_API gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim);
 
-/* Collective, as gp_load: of a checkpoint by any number of processes, which every process can read. Where HDF5 is not thread-safe, it is
- * not called by two threads at once, for two communicators. */
+/* Collective, as gp_load: of a checkpoint by any number of processes, which every process can read; MPI and the communicator as for
+ * gp_create_mpi, with the threads that the checkpoint has. Where HDF5 is not thread-safe, it is not called by two threads at once, for two
+ * communicators. */
 GP_API gp_status gp_load_mpi(const char *path, MPI_Comm comm, gp_sim **sim);
 
 #ifdef __cplusplus

@@ -24,6 +24,17 @@ void require_communicator(MPI_Comm comm) {
         throw make_error(GP_E_ARGUMENT, "comm = MPI_COMM_NULL: expected a communicator");
 }
 
+// The threads of a simulation compute beside the one that calls MPI.
+void require_funneled(const gp_config &config) {
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Query_thread(&provided);
+    if (config.threads != 1 && provided < MPI_THREAD_FUNNELED)
+        throw make_error(GP_E_STATE,
+                         "gp_config.threads = %d: expected 1, or MPI begun by MPI_Init_thread with at least "
+                         "MPI_THREAD_FUNNELED",
+                         config.threads);
+}
+
 // make(crossing) on all; where one of them cannot, none has a simulation.
 template <class Make> gp_status make_together(MPI_Comm comm, gp_sim **sim, const Make &make) {
     return guard([&] {
@@ -50,8 +61,10 @@ gp_status gp_create_mpi(const gp_config *config, MPI_Comm comm, gp_sim **sim) {
     using namespace gp;
     return make_together(comm, sim, [&](const std::shared_ptr<mpi::MpiCrossing> &crossing) {
         require_level();
-        const gp_config whole = complete(config, default_config(GP_PRESET_DEFAULT), "gp_config");
-        return std::make_unique<gp_sim>(whole, crossing);
+        const gp_config whole = complete_config(config);
+        auto made = std::make_unique<gp_sim>(whole, crossing); // with what is wrong in the config itself told first
+        require_funneled(whole);
+        return made;
     });
 }
 
@@ -67,6 +80,7 @@ gp_status gp_load_mpi(const char *path, MPI_Comm comm, gp_sim **sim) {
         };
         io::OutputPosition left_off;
         io::load_checkpoint(path, crossing.get(), create, left_off);
+        require_funneled(loaded->sim.scene().config()); // not in create, whose errors are those of a damaged file
         loaded->left_off = std::move(left_off);
         return loaded;
     });

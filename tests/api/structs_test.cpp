@@ -177,6 +177,28 @@ TEST(StructSize, OlderConfigGivesTheRunOfTheDefaults) {
     EXPECT_EQ(bits[0], bits[1]);
 }
 
+// Of the schemes by number density, too, as soon as the struct says that it is one: what it does not know is its preset's.
+TEST(StructSize, OlderConfigOfThePaperIsCompletedWithItsPreset) {
+    for (const int32_t preset : {GP_PRESET_PAPER, GP_PRESET_PAPER_LOCAL}) {
+        gp_config config;
+        ASSERT_EQ(gp_config_init(&config, sizeof config, preset), GP_OK);
+        config.spacing = spacing;
+        std::vector<uint64_t> whole;
+        for (std::size_t size = sizeof config; size >= offsetof(gp_config, friction_factor); size -= 8) {
+            Bytes bytes(&config, size, size, 0);
+            Sim sim;
+            gp_destroy(sim.handle);
+            ASSERT_EQ(gp_create(bytes.say(size).as<gp_config>(), &sim.handle), GP_OK)
+                << size << ": " << gp_last_error();
+            add_collapse(sim, 6, 5);
+            ASSERT_EQ(gp_step(sim, 5), GP_OK) << gp_last_error();
+            if (whole.empty())
+                whole = snapshot(sim, 3);
+            EXPECT_EQ(snapshot(sim, 3), whole) << "preset " << preset << ", size " << size;
+        }
+    }
+}
+
 TEST(StructSize, OlderSceneStructsAreCompletedWithDefaults) {
     Sim sim;
     const gp_material material = make_material();

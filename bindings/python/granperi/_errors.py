@@ -43,7 +43,7 @@ class FileError(Error, OSError):
 
 
 class DivergedError(Error, ArithmeticError):
-    """A value became non-finite or unbounded; the simulation can be read at its last good step, not stepped."""
+    """A value became non-finite or unbounded; the simulation can be read and saved at its last good step, not stepped."""
 
     status = lib.GP_E_DIVERGED
 

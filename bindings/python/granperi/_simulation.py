@@ -128,7 +128,7 @@ class Simulation(SimulationRunning):
 
         Raises:
             FileError: no such file, or not a checkpoint; the text says what to do.
-            VersionError: a file of a newer version.
+            VersionError: a file of another version.
             UnsupportedError: a library without HDF5.
 
         Example:

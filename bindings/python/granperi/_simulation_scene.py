@@ -74,7 +74,7 @@ class SimulationScene(SimulationBase):
 
         Raises:
             ArgumentError: a side that is not above 0 or rounds to nothing, a material that does not exist, a place outside a
-                period, more particles than 2147483647 in all.
+                period, more particles than 2147483646 in all.
             OutOfMemoryError: more particles than there is memory for.
 
         Example:
