@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of several processes: mpi_test.py same_values|restarts|program|kill|memory|failing, with the programs' paths as options."""
+"""Tests of several processes: mpi_test.py same_values|restarts|program|kill|memory|failing|scene, with the programs' paths as options."""
 import argparse
 import os
 import pathlib
@@ -82,6 +82,8 @@ class Tests:
             self.must(3, program, "go_on", "b.h5", 0, "three.h5")
             one, three = ((self.folder / name).read_bytes() for name in ("one.h5", "three.h5"))
             self.check(one == three, f"{scene}: the same file by one and by three")
+        result = self.run(2, program, "threads", "threads.h5")
+        self.check(result.returncode == 0, "several threads are for an MPI that was begun with them", result)
         for ranks in 2, 4:
             result = self.run(ranks, program, "warnings")
             self.check(result.returncode == 0, f"the warnings of a scene by {ranks}", result)
@@ -99,12 +101,163 @@ class Tests:
                 position = file["particles/all/position"]
                 frames.append((position["value"][...].tobytes(), position["time"][...].tobytes()))
         self.check(frames[0] == frames[1], "the same frames")
+        to_the_end = "first.h5", "--end", 0.02, "--end-frame", "--output"
+        self.must(2, program, *to_the_end, "more.h5", "--every", 0.015, "--fields", "stress,column")
+        self.must(2, program, *to_the_end, "even.h5", "--every", 0.01)
+        for name, count in ("more.h5", 3), ("even.h5", 3):
+            with h5py.File(self.folder / name) as file:
+                times = file["particles/all/position/time"][...]
+                self.check(len(times) == count and times[-1] == 0.02, f"{name}: one frame at the end")
+                self.check(("sxy" in file["particles/all"]) == (name == "more.h5") != ("pressure" in file["particles/all"]),
+                           f"{name}: the fields that are asked for")
         for arguments, expected in (((), "no file given"), (("first.h5",), "--end is missing"),
                                     (("none.h5", "--end", 1), "none.h5"), (("first.h5", "--end", "x"), "expected a number"),
                                     (("first.h5", "--end", 0), "expected a time after"),
-                                    (("first.h5", "--end", 1, "--what"), "no such option")):
+                                    (("first.h5", "--end", 1, "--what"), "no such option"),
+                                    (("first.h5", "--end", 1, "--output", "n.h5", "--every", 0), "--every 0: expected a number"),
+                                    (("first.h5", "--end", 1, "--output", "n.h5", "--fields", "speed"), "no field 'speed'"),
+                                    (("first.h5", "--end", 1, "--checkpoint", 1), "--checkpoint is of --save"),
+                                    (("first.h5", "--end", 1, "--save", "none/e.h5"), "--save none/e.h5: cannot be"),
+                                    (("first.h5", "--end", 1, "--save", "first.h5/e"), "--save first.h5/e: cannot be"),
+                                    (("first.h5", "--end", 1, "--save", "."), "--save .: cannot be written")):
             result = self.run(2, program, *arguments)
             self.check(result.returncode != 0 and result.stderr.count(expected) == 1, f"{expected}, once", result)
+        self.check(not (self.folder / "n.h5").exists(), "mistakes are found before a file is touched")
+        self.failed_runs(program)
+
+    def failed_runs(self, program):
+        """What was computed before an error is kept."""
+        self.must(1, self.options.restarts, "make", "blow", 0, "blow.h5")
+        for there, saved in ((None, "blow.end.h5"), (b"a checkpoint", "blow.h5.stopped")):
+            if there:
+                (self.folder / "blow.end.h5").write_bytes(there)
+            result = self.run(2, program, "blow.h5", "--end", 0.1, "--save", "blow.end.h5")
+            self.check(result.returncode == 2 and result.stderr.count(f"the last good step is saved to {saved}") == 1
+                       and "of particle" in result.stderr, f"a step that diverges: saved to {saved}", result)
+        self.check((self.folder / "blow.end.h5").read_bytes() == there, "a checkpoint is not replaced by what has diverged")
+        result = self.run(1, program, "blow.h5.stopped", "--end", 0.1)
+        self.check(result.returncode == 2 and "saved to" not in result.stderr
+                   and not (self.folder / "blow.h5.stopped.stopped").exists(), "nothing computed, nothing saved", result)
+
+        # A disk that is full: no file of this process may be larger.
+        full = ["sh", "-c", 'trap "" XFSZ; ulimit -f 400; exec "$@"', "sh"]
+        command = self.command(1, *full, program, "first.h5", "--end", 10, "--output", "f.h5", "--every", 0.005, "--save", "f.end.h5")
+        result = subprocess.run(command, cwd=self.folder, env={**ENVIRONMENT, "OMPI_MCA_btl": "self"}, text=True, capture_output=True,
+                                timeout=120)
+        self.check(result.returncode == 2 and "write a frame" in result.stderr
+                   and "the last good step is saved to f.end.h5" in result.stderr, "a frame that cannot be written", result)
+        self.must(1, self.options.restarts, "alone", "f.end.h5", 3, "f.end.h5")
+
+        (self.folder / "gone").mkdir()
+        process = self.start(2, program, "first.h5", "--end", 10, "--output", "g.h5", "--every", 0.005, "--save", "gone/e.h5")
+        self.wait_for_frames(process, "g.h5", 3)
+        (self.folder / "gone").rmdir()
+        process.send_signal(signal.SIGUSR1)
+        _, errors = process.communicate(timeout=120)
+        self.check(process.returncode == 2 and "saved to first.h5.stopped instead of gone/e.h5" in errors,
+                   "where the checkpoint cannot be written any more")
+        self.must(2, program, "first.h5.stopped", "--end", 0.05, "--output", "g.h5", "--every", 0.005, "--append")
+
+    SCENE = """\
+[config]
+spacing = 0.005
+[run]
+end = 0.2
+every = 0.0123
+output = "run.h5"
+fields = ["velocity", "stress"]
+[[column]]
+width = 0.08
+height = 0.05
+[[floor]]
+x_left = -0.3
+x_right = 0.4
+"""
+
+    def granperi(self, *arguments, start=False):
+        """python3 -m granperi in a folder of its own, beside the programs."""
+        paths = os.pathsep.join([os.path.dirname(self.options.program), os.path.dirname(self.options.mpiexec),
+                                 os.environ["PATH"]])
+        options = {"cwd": self.folder, "text": True, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE,
+                   "env": {**ENVIRONMENT, "PATH": paths, "PYTHONPATH": self.options.package, "PYTHONDONTWRITEBYTECODE": "1"}}
+        command = [sys.executable, "-m", "granperi", *map(str, arguments)]
+        return subprocess.Popen(command, **options) if start else subprocess.run(command, timeout=120, **options)
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def wait_for_ranks(self, process, program, frames=None):
+        """Both of them, once they have written some frames."""
+        ranks = []
+        while process.poll() is None and len(ranks) < 2:
+            time.sleep(0.05)
+            ranks = self.ranks_of(process, program)
+        if frames:
+            self.wait_for_frames(process, frames, 3)
+        return ranks
+
+    def is_whole(self, name, what, result=None):
+        """The result that one process has written, and nothing beside it."""
+        same = self.files() == self.complete
+        if same:
+            with h5py.File(self.folder / "one" / "run.h5") as one, h5py.File(self.folder / name) as other:
+                one, other = one["particles/all"], other["particles/all"]
+                pairs = [(one[name][part][...], other[name][part][...]) for name in one if name in other and "value" in one[name]
+                         for part in ("time", "value")]
+                same = set(one) == set(other) and len(pairs) >= 6 and all(a.shape == b.shape and (a == b).all() for a, b in pairs)
+        self.check(same, what, result)
+
+    def scene(self):
+        """python3 -m granperi run --mpi N: nothing that was computed is lost, nothing that exists is replaced too soon."""
+        program = self.options.program
+        (self.folder / "s.toml").write_text(self.SCENE)
+        (self.folder / "one").mkdir()
+        one = self.granperi("run", "s.toml", "--output", "one/run.h5")
+        self.complete = sorted([*self.files(), *(path.name for path in (self.folder / "one").iterdir())])
+        result = self.granperi("run", "s.toml", "--mpi", 2, "--no-progress")
+        self.check(one.returncode == result.returncode == 0 and not result.stderr, "--no-progress", result)
+        self.is_whole("run.h5", "the result of one process", result)
+        result = self.granperi("run", "s.toml", "--resume", "--end", 0.21)
+        self.check(result.returncode == 0, "one process goes on with a complete run", result)
+        old = (self.folder / "run.h5").read_bytes()
+        result = self.granperi("run", "s.toml", "--mpi", 2)
+        self.check(result.returncode == 1 and "run.h5 exists" in result.stderr, "what exists is not replaced", result)
+        for number, status in (signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 129):
+            process = self.granperi("run", "s.toml", "--mpi", 2, "--end", 100, "--overwrite", "--progress", start=True)
+            ranks = self.wait_for_ranks(process, program, "run.part/run.h5")
+            process.send_signal(number)
+            told = process.communicate(timeout=120)[1]
+            self.check(process.returncode == status and "saved to run.part/run.gpc" in told and "Traceback" not in told
+                       and "--resume in place of --mpi 2 goes on" in told and "t = " in told, f"{number.name} saves and ends")
+            before = time.monotonic()
+            while any(os.path.exists(f"/proc/{rank}") for rank in ranks) and time.monotonic() < before + 10:
+                time.sleep(0.02)  # mpiexec goes when it has been told of the end of all
+            self.check(len(ranks) == 2 and time.monotonic() < before + 10, "it ends all")
+            self.check((self.folder / "run.h5").read_bytes() == old, "the old result stays")
+        result = self.granperi("run", "s.toml", "--mpi", 2)
+        self.check(result.returncode == 1 and "run.h5 exists" in result.stderr, "what was interrupted is not begun anew", result)
+
+        # A run that is ended from within; one without a result.
+        process = self.granperi("run", "s.toml", "--mpi", 2, "--end", 100, "--overwrite", start=True)
+        os.kill(self.wait_for_ranks(process, program, "run.part/run.h5")[0], signal.SIGUSR1)
+        told = process.communicate(timeout=120)[1]
+        self.check(process.returncode == 75 and "goes on" in told, "SIGUSR1 to one process")
+        with h5py.File(self.folder / "run.part/run.h5") as file:
+            end = file["particles/all/position/time"][-1] + 0.02
+        result = self.granperi("run", "s.toml", "--resume", "--end", end)
+        self.check(result.returncode == 0, "one process goes on", result)
+        with h5py.File(self.folder / "run.h5") as file:
+            times = file["particles/all/position/time"][...]
+            self.check(len(times) == int(end / 0.0123) + 2 and times[-1] == end, "without a gap, to the end")
+        self.check(self.files() == self.complete, "all in its place")
+        process = self.granperi("run", "s.toml", "--mpi", 2, "--end", 100, "--output", "none", start=True)
+        self.wait_for_ranks(process, program)
+        time.sleep(1)
+        process.terminate()
+        told = process.communicate(timeout=120)[1]
+        saved = told.partition("saved to ")[2].partition("\n")[0]
+        self.check(process.returncode == 143 and saved.endswith(".stopped") and (self.folder / saved).is_file(),
+                   f"without a result, too: {saved}")
 
     def memory(self):
         """What the start, states, frames and checkpoints take on the first process of two, per particle of the whole. Where it had
@@ -179,6 +332,11 @@ class Tests:
         self.must(1, program, "first.h5", "--end", 0.06, "--save", "whole.h5")
         with h5py.File(self.folder / "f.h5") as file:
             self.check(len(file["particles/all/position/time"]) >= 12, "frames go on")
+        process = self.start(2, program, "first.h5", "--end", 10, "--save", "way.h5", "--checkpoint", 0.1)
+        while process.poll() is None and not (self.folder / "way.h5").exists():
+            time.sleep(0.02)
+        self.kill_some(process, program, True, 0.3)
+        self.must(1, self.options.restarts, "alone", "way.h5", 3, "way.h5")
         self.kill_writers(program)
 
     def kill_writers(self, program):
@@ -227,17 +385,18 @@ class Tests:
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("check", choices=["same_values", "restarts", "program", "kill", "memory", "failing"])
+    parser.add_argument("check", choices=["same_values", "restarts", "program", "kill", "memory", "failing", "scene"])
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--same-values")
     parser.add_argument("--restarts")
     parser.add_argument("--program")
     parser.add_argument("--memory")
     parser.add_argument("--failing")
+    parser.add_argument("--package", help="where the Python package is")
     parser.add_argument("--runs", type=int, default=40)
     parser.add_argument("--kills", type=int, default=4)
     options = parser.parse_args()
-    if h5py is None and options.check in ("program", "kill"):
+    if h5py is None and options.check in ("program", "kill", "scene"):
         print("no h5py")
         return 77
     with tempfile.TemporaryDirectory() as folder:

@@ -23,7 +23,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Returns the exit status: 0, 1 for an error, 2 for wrong arguments, 130 after Ctrl-C, 143 after SIGTERM."""
+    """Returns the exit status: 0, 1 for an error, 2 for wrong arguments, 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."""
     options = _parser().parse_args(arguments)
     try:
         with warnings.catch_warnings():
@@ -31,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             options.function(options)
     except KeyboardInterrupt as interrupt:
         print("granperi: interrupted", file=sys.stderr)
-        return 143 if isinstance(interrupt, Terminated) else 130
+        return 128 + interrupt.number if isinstance(interrupt, Terminated) else 130
     except BrokenPipeError:  # who reads what we print has enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1

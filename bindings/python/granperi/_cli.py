@@ -12,16 +12,21 @@ from ._progress import has_tqdm
 
 
 class Terminated(KeyboardInterrupt):
-    """SIGTERM: a batch system wants its processor back."""
+    """SIGTERM: a batch system wants its processor back; SIGHUP: the terminal is gone."""
+
+    def __init__(self, number: int):
+        self.number = number
 
 
 @contextlib.contextmanager
 def saved_when_terminated(hint: str) -> Iterator[None]:
-    """SIGTERM interrupts what is inside as Ctrl-C does; the hint says how it goes on after that."""
+    """SIGTERM and, unless nohup has it ignored, SIGHUP interrupt what is inside as Ctrl-C does; the hint says how it goes on after
+    that."""
     def terminate(number: int, frame: "FrameType | None") -> None:
-        raise Terminated
+        raise Terminated(number)
 
-    before = signal.signal(signal.SIGTERM, terminate)
+    before = {number: signal.signal(number, terminate) for number in (signal.SIGTERM, signal.SIGHUP)
+              if signal.getsignal(number) != signal.SIG_IGN}
     try:
         yield
     except KeyboardInterrupt:
@@ -29,7 +34,8 @@ def saved_when_terminated(hint: str) -> Iterator[None]:
             print(f"granperi: {hint}", file=sys.stderr)
         raise
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 class Commands:
@@ -52,7 +58,7 @@ def bar_is_shown(options: argparse.Namespace) -> bool:
 
 def whole_above_0(text: str) -> int:
     """The type of an argument that counts something."""
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{text}: expected a whole number >= 1")
-    return number
+    with contextlib.suppress(ValueError):
+        if (number := int(text)) >= 1:
+            return number
+    raise argparse.ArgumentTypeError(f"{text}: expected a whole number >= 1")

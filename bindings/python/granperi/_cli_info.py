@@ -10,9 +10,24 @@ from ._errors import ArgumentError
 from ._result import Result
 from ._scene import Scene
 
+STEPS = "100"
+
+
+def _steps(options: argparse.Namespace) -> int:
+    """How many for the plan; 0: none asked for."""
+    if options.plan is None:
+        return 0
+    if options.file is None and not options.plan.lstrip("+-").isdigit():  # info --plan scene.toml
+        options.file, options.plan = options.plan, STEPS
+    try:
+        return whole_above_0(options.plan)
+    except argparse.ArgumentTypeError as error:
+        raise ArgumentError(f"--plan {error}") from None
+
 
 def _info(options: argparse.Namespace) -> None:
-    if options.plan and (options.file is None or options.file.endswith((".h5", ".hdf5"))):
+    steps = _steps(options)
+    if steps and (options.file is None or options.file.endswith((".h5", ".hdf5"))):
         raise ArgumentError("--plan: expected a scene file, whose plan it is")
     if options.file is None:
         print(f"granperi {granperi.__version__}")
@@ -30,14 +45,14 @@ def _info(options: argparse.Namespace) -> None:
     scene = Scene.read(options.file)
     with scene.build() as sim:
         print(f"{scene!r}: {sim.n_particles} particles")
-        if options.plan:
-            sim.step(options.plan)
-            print(f"after {options.plan} steps, to {sim.time:.4g} s:")
+        if steps:
+            sim.step(steps)
+            print(f"after {steps} steps, to {sim.time:.4g} s:")
         print(sim.plan())
 
 
 def add(commands: Commands) -> None:
     info = commands.add("info", _info, "Version and features; the plan of a scene file; what is in a result file.")
     info.add_argument("file", nargs="?", help="scene file or result file")
-    info.add_argument("--plan", type=whole_above_0, nargs="?", const=100, metavar="STEPS",
+    info.add_argument("--plan", nargs="?", const=STEPS, metavar="STEPS",
                       help="take so many steps of the scene first, so that the plan tells what each stage costs [100]")

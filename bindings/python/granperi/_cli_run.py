@@ -52,8 +52,9 @@ Others: [[plate]] (gp_plate), [[wall]] (x, y_bottom, y_top, material), [[wall_li
 [[particles]] (x, y, vx, vy), [[polygon]] (points or file), [[mask]] (file, x_min, y_min, width).
 
 A run is written into a directory beside its place (collapse.part/ for collapse.h5) and moved there when it is complete.
-A result that exists is neither replaced (--overwrite) nor gone on with (--resume) unless you say so. Ctrl-C and SIGTERM save
-a checkpoint, from which --resume goes on with the same bits.
+A result that exists is neither replaced (--overwrite) nor gone on with (--resume) unless you say so. A checkpoint is
+saved each minute, by Ctrl-C, SIGTERM and SIGHUP and at the end, from which --resume goes on with the same bits, also
+with a run on several processes (--mpi N), then on one.
 """
 
 
@@ -87,9 +88,11 @@ def _run(options: argparse.Namespace) -> None:
     if options.mpi is not None:
         if options.resume or options.csv or scene.run.until != "end" or scene.has_probes():
             raise ArgumentError("--mpi: expected no --resume, no --csv, no [[probe]] and until = \"end\"")
+        quiet = not (options.progress if options.progress is not None else sys.stderr.isatty())
+        with saved_when_terminated(_mpi.goes_on(options.mpi) if output else ""):
+            _mpi.run(scene, options.mpi, output, options.overwrite, quiet)
         if output:
-            require_free(output, options.overwrite)
-        _mpi.run(scene, options.mpi, output)
+            print(f"frames in {output}")
         return
     if options.csv:
         require_free(options.csv, options.overwrite or options.resume)
@@ -122,7 +125,7 @@ def add(commands: Commands) -> None:
     run.add_argument("--end", type=float, help="end of the run, s [that of the scene]")
     run.add_argument("--until", choices=("end", "rest"), help="rest: over when the material rests [as the scene says]")
     run.add_argument("--spacing", type=float, help="m [that of the scene]")
-    run.add_argument("--mpi", type=int, metavar="N", 
+    run.add_argument("--mpi", type=int, metavar="N",
                      help="on N processes, by mpiexec and granperi-mpi; without --resume, --csv and probes")
     run.add_argument("--threads", type=int, help="0: the OpenMP default [that of the scene]")
     run.add_argument("--csv", help="a file for the states at the frames, too")

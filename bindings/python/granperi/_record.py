@@ -69,8 +69,8 @@ class Place:
             os.replace(self.in_part(source) + ".new", self.in_part(source))
 
     @contextlib.contextmanager
-    def locked(self) -> Iterator[None]:
-        """One process at a time runs into this place."""
+    def locked(self) -> Iterator[int]:
+        """One process at a time runs into this place: it, and who inherits what this gives, a file descriptor."""
         os.makedirs(self.part, exist_ok=True)
         lock = os.open(os.path.join(self.part, "lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
         try:
@@ -83,7 +83,7 @@ class Place:
                 if name.endswith(".new"):  # of a copy that was interrupted
                     os.remove(os.path.join(self.part, name))
             try:
-                yield
+                yield lock
             finally:
                 if os.listdir(self.part) == ["lock"]:  # all is in its place, or nothing has been begun
                     shutil.rmtree(self.part, ignore_errors=True)
@@ -134,9 +134,9 @@ def record_scene(scene: Any, path: "str | os.PathLike[str]", progress: bool, ove
     with scene.build() as built:  # all mistakes in it are found before a file is touched
         probes = scene.add_probes(built)
         if not resume:
-            _require_new(place, overwrite, scene.probe_files(place.path))
+            require_new(place, overwrite, scene.probe_files(place.path))
             with place.locked():
-                _empty(place.part)
+                empty(place.part)
                 return _recorded(scene, built, probes, place, progress, checkpoint_seconds)
         asked = _Asked(built)
     with place.locked():
@@ -151,7 +151,7 @@ def record_scene(scene: Any, path: "str | os.PathLike[str]", progress: bool, ove
                 return _history_of(place.path)
             place.copy_to_part(scene.probe_files(place.path))
         if not os.path.exists(place.in_part(place.checkpoint)):  # interrupted before there was one
-            _empty(place.part)
+            empty(place.part)
             with scene.build() as sim:
                 return _recorded(scene, sim, scene.add_probes(sim), place, progress, checkpoint_seconds)
         asked.require_same(place, place.in_part(place.checkpoint), place.in_part(place.path))
@@ -187,7 +187,7 @@ class _Asked:
         raise ArgumentError(f"{place.path} cannot be resumed: it is of another scene, whose {what}; {ANEW}, or name another output")
 
 
-def _require_new(place: Place, overwrite: bool, probe_files: list[str]) -> None:
+def require_new(place: Place, overwrite: bool, probe_files: list[str]) -> None:
     if overwrite:
         return
     if taken := [file for file in (place.path, *probe_files) if os.path.exists(file)]:
@@ -197,7 +197,7 @@ def _require_new(place: Place, overwrite: bool, probe_files: list[str]) -> None:
         raise FileError(f"{place.part} has a run that was interrupted: {GO_ON}; {ANEW}")
 
 
-def _empty(directory: str) -> None:
+def empty(directory: str) -> None:
     for name in os.listdir(directory):
         if name != "lock":
             os.remove(os.path.join(directory, name))
@@ -238,7 +238,7 @@ def _recorded(scene: Any, sim: Simulation, probes: "list[Probe]", place: Place, 
             saving.save()
     except Error:
         if sim.clock.step == 0:  # a mistake of the scene that only its first step finds
-            _empty(place.part)
+            empty(place.part)
         raise
     place.finish()
     return history

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import math
 from typing import Any, Callable
 
 from ._enums import field_names
@@ -58,8 +59,8 @@ def make_config(values: dict[str, Any]) -> Config:
 def make_run(values: dict[str, Any]) -> Run:
     run = Run(**values)
     run.end, run.every = number("end", run.end), number("every", run.every)
-    if not (run.end > 0 and run.every > 0):
-        raise ArgumentError(f"end = {run.end:g}, every = {run.every:g}: expected numbers above 0")
+    if not (0 < run.end < math.inf and 0 < run.every < math.inf):
+        raise ArgumentError(f"end = {run.end:g}, every = {run.every:g}: expected finite numbers above 0")
     if not isinstance(run.output, str):
         raise ArgumentTypeError(f"output = {run.output!r}: expected the name of a file")
     if run.until not in ("end", "rest"):

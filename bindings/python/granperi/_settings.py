@@ -84,7 +84,7 @@ _LEVELS = {
 # /aims
 
 
-def settings(name: str, of: "Scene | str | os.PathLike[str] | float") -> Settings:
+def settings(name: str, of: "Scene | str | os.PathLike[str] | float | None" = None) -> Settings:
     """Recommended settings of the default scheme for a scene, or for bodies of a length.
 
     Errors and cost are those of three collapses of glass beads (docs/settings.md). The errors of another scene show only in runs

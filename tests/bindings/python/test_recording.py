@@ -242,7 +242,7 @@ scene.record("run.h5", resume=True, checkpoint=0.02)
 
 
 @needs_hdf5
-@pytest.mark.parametrize("number, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize("number, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_signals_save_and_end(tmp_path, number, status):
     (tmp_path / "s.toml").write_text(TEXT.replace("end = 0.2", "end = 100"))
     command = [sys.executable, "-m", "granperi", "run", "s.toml"]

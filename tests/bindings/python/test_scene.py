@@ -103,6 +103,8 @@ def test_a_scene_by_keyword():
     ('stress = "elastic"', 'stress = "elastc"', r"gp_config.stress = 'elastc': did you mean 'elastic'"),
     ("end = 0.03", "ends = 0.03", r"line 8, \[run\]: unknown key 'ends': did you mean 'end'"),
     ("end = 0.03", "end = -1", r"\[run\]: end = -1"),
+    ("end = 0.03", "end = inf", r"\[run\]: end = inf, every = 0.01: expected finite numbers above 0"),
+    ("every = 0.01", "every = inf", r"\[run\]: end = 0.03, every = inf: expected finite numbers above 0"),
     ("height = 0.05\nmaterial", "height = -0.05\nmaterial", r"line 15, \[\[column\]\] number 1: gp_column.height = -0.05"),
     ('material = "fine"', 'material = "fnie"', r"\[\[column\]\] number 1: material = 'fnie': did you mean 'fine'"),
     ("y = [0.005]", "y = [0.005, 1]", r"\[\[particles\]\] number 1: y has 2 values: expected 1"),

@@ -78,6 +78,11 @@ def test_mistakes_are_told(name, of, message):
         granperi.settings(name, of)
 
 
+def test_what_they_are_for_is_asked_for():
+    with pytest.raises(granperi.ArgumentError, match="of = None: expected a Scene, the path of a scene file, or a length in m"):
+        granperi.settings("draft")
+
+
 def test_scenes_whose_spacing_is_not_free():
     scene = granperi.Scene.parse(TEXT)
     scene.add("particles", x=[0.0], y=[1.0])

@@ -129,6 +129,8 @@ def test_plan_with_costs_on_the_command_line(tmp_path, capsys):
     assert __main__.main(["info", str(tmp_path / "s.toml"), "--plan", "7"]) == 0
     force = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("stage    force "))
     assert force.split()[2:4] != ["7"] and float(force.split()[2]) > 0 and force.split()[3] == "7"
+    assert __main__.main(["info", "--plan", str(tmp_path / "s.toml")]) == 0
+    assert "after 100 steps" in capsys.readouterr().out
 
 
 def test_the_bar_of_a_notebook(sim, monkeypatch, capsys):
