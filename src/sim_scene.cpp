@@ -10,11 +10,16 @@
 namespace gp {
 
 void Sim::require_unstarted(const char *call) const {
+    const int64_t step = started_ ? world_->clock.step : 0;
+    if (step > 0)
+        throw make_error(GP_E_STATE,
+                         "%s: the scene is fixed once the first step is taken (step %lld): add to it before", call,
+                         static_cast<long long>(step));
     if (started_)
         throw make_error(GP_E_STATE,
-                         "%s: the scene is fixed once the first step is taken (step %lld), or a plate or gravity set "
-                         "while an output is open: add to it before",
-                         call, static_cast<long long>(world_->clock.step));
+                         "%s: the scene is fixed since a first step was tried, or a plate or gravity set while an "
+                         "output was open: add to it before",
+                         call);
     if (sink)
         throw make_error(GP_E_STATE,
                          "%s: the scene is fixed while an output is open: add to it before, or close the output", call);

@@ -83,7 +83,7 @@ TEST(Order, TheSceneIsFixedWhileAnOutputIsOpen) {
     EXPECT_EQ(gp_set_plate_velocity(sim, 0, 0.1, 0), GP_OK);
     EXPECT_EQ(gp_output_write(sim), GP_OK);
     ASSERT_EQ(gp_output_close(sim), GP_OK);
-    expect_scene_is_fixed(sim, "gravity set while an output is open");
+    expect_scene_is_fixed(sim, "gravity set while an output was open");
 }
 
 TEST(Order, AnOutputIsClosedAndSavedBesideAfterGravityWasSet) {
