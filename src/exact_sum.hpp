@@ -52,9 +52,8 @@ private:
 };
 
 // On a plate in one step.
-struct ExactLoad {
-    ExactSum fx, fy, torque, torque_pivot; // N/m; N, about its first point and about its pivot
-
+class ExactLoad {
+public:
     // One more of each, in this order: what ExactSum::add adds to each, all at once. (One after the other they were two fifths of
     // what the contacts of a floor took in stages that one thread does.)
     GP_INLINE void add(const Lanes &values, const Lanes &scales) {
@@ -71,29 +70,32 @@ struct ExactLoad {
         if (++in_lanes_ == most_in_lanes)
             settle();
     }
-    std::array<ExactSum *, 4> all() {
+    // Of the last one alone.
+    void add_couple(double couple, double scale) { sums_[3].add(couple, scale); }
+
+    // Forces in x and y, N/m; torques about its first point and about its pivot, N.
+    std::array<ExactSum, lane_count> &all() {
         settle();
-        return {&fx, &fy, &torque, &torque_pivot};
+        return sums_;
     }
     void operator+=(ExactLoad other) {
-        const std::array<ExactSum *, 4> own = all(), others = other.all();
+        settle();
+        other.settle();
         for (int l = 0; l < lane_count; ++l)
-            *own[l] += *others[l];
+            sums_[l] += other.sums_[l];
     }
 
 private:
     void add_one_by_one(const Lanes &values, const Lanes &scales) {
-        const std::array<ExactSum *, 4> sums = all();
         for (int l = 0; l < lane_count; ++l)
-            sums[l]->add(values[l], scales[l]);
+            sums_[l].add(values[l], scales[l]);
     }
     void settle() {
         if (in_lanes_ == 0)
             return;
         in_lanes_ = 0;
-        ExactSum *const sums[lane_count] = {&fx, &fy, &torque, &torque_pivot};
         for (int l = 0; l < lane_count; ++l)
-            sums[l]->add_whole(static_cast<Whole>(static_cast<int64_t>(high_[l] * 0x1p-32)) *
+            sums_[l].add_whole(static_cast<Whole>(static_cast<int64_t>(high_[l] * 0x1p-32)) *
                                    (static_cast<Whole>(1) << 32) +
                                static_cast<int64_t>(low_[l]));
         high_ = low_ = Lanes{};
@@ -101,6 +103,7 @@ private:
 
     // Of so many both sums are exact: below 2^84 in multiples of 2^32, and below 2^43.
     static constexpr int32_t most_in_lanes = 1 << 12;
+    std::array<ExactSum, lane_count> sums_; // but for what is in lanes
     Lanes high_{}, low_{};
     int32_t in_lanes_ = 0;
 };

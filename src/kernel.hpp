@@ -66,7 +66,8 @@ public:
         }
     }
     double share(double y) const {
-        const double at = y > 0 ? std::min(y, 1.0) * samples : 0.0; // of what is no number, too: such a step is refused later
+        // 0 also of what is no number: such a step is refused later.
+        const double at = y > 0 ? std::min(y, 1.0) * samples : 0.0;
         const int k = std::min(static_cast<int>(at), samples - 1);
         return share_[k] + (at - k) * (share_[k + 1] - share_[k]);
     }

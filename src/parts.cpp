@@ -95,8 +95,8 @@ void combine_books(World &world, BlockRange &range, BlockSums &total) {
     double largest[5] = {-range.u_min, range.u_max, -range.v_min, range.v_max, total.densest};
     Sums sums;
     for (Plate &plate : world.walls.plates)
-        for (const ExactSum *load : plate.load.all())
-            sums.put(*load);
+        for (const ExactSum &load : plate.load.all())
+            sums.put(load);
     for (double Ledger::*sum : sums_of_ledger())
         sums.put(world.ledger.*sum - before.*sum, energy);
     const double mass = std::exp2(60 - std::ilogb(world.mass));
@@ -111,8 +111,8 @@ void combine_books(World &world, BlockRange &range, BlockSums &total) {
     range = {-largest[0], largest[1], -largest[2], largest[3]};
     total.densest = largest[4];
     for (Plate &plate : world.walls.plates)
-        for (ExactSum *load : plate.load.all())
-            sums.take(*load);
+        for (ExactSum &load : plate.load.all())
+            sums.take(load);
     for (double Ledger::*sum : sums_of_ledger())
         world.ledger.*sum = before.*sum + sums.take(energy);
     total.kinetic = sums.take(energy);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "exact_sum.hpp"
@@ -84,10 +83,10 @@ public:
 
     ExactLoad load; // of the step under way; at its end the next three are taken from it
     void take_load(const LoadScale &scale) {
-        const std::array<ExactSum *, 4> sums = load.all();
-        force = Vector(sums[0]->value(scale.force), sums[1]->value(scale.force));
-        torque = sums[2]->value(scale.torque);
-        torque_pivot = sums[3]->value(scale.torque);
+        const auto &[fx, fy, about_first, about_pivot] = load.all();
+        force = Vector(fx.value(scale.force), fy.value(scale.force));
+        torque = about_first.value(scale.torque);
+        torque_pivot = about_pivot.value(scale.torque);
     }
 
     Vector force = Vector::Zero();   // N/m, of the material on the plate over the last step

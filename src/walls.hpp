@@ -97,7 +97,7 @@ struct Walls {
 
     // The material's force (N/m) on a facet of a plate, acting at a point.
     void add_load(int32_t facet, const Vector &at, const Vector &force);
-    void add_couple(int32_t plate, double couple) { plates[plate].load.torque_pivot.add(couple, load_scale.torque); }
+    void add_couple(int32_t plate, double couple) { plates[plate].load.add_couple(couple, load_scale.torque); }
 
     // The facets of all plates, where these are.
     void make_facets(const Scene &scene);

@@ -56,7 +56,7 @@ void write_common(CheckpointWriter &file, const World &world) {
     exchange_lists(file, lists);
 
     file.group("/plate_motions");
-    write_items(file, world.walls.plates, [](const auto &visit) { for_each_of_motion(visit); });
+    write_items(file, world.walls.plates, for_each_of_motion);
     exchange_ghosts(file, world);
     PieceTable pieces;
     for (const Piece &piece : world.pieces) {
@@ -212,7 +212,7 @@ void read_particles(CheckpointReader &file, const Checker &check, const Scene &s
 
 void read_motions(CheckpointReader &file, const Checker &check, World &w) {
     file.group("/plate_motions");
-    read_items(file, check, w.walls.plates, [](const auto &visit) { for_each_of_motion(visit); });
+    read_items(file, check, w.walls.plates, for_each_of_motion);
     for_each_of_motion([&](const char *name, const auto &number) {
         for (const Plate &plate : w.walls.plates)
             if (const double value = std::invoke(number, plate); std::strcmp(name, "gap") != 0)

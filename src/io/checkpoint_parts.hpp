@@ -191,7 +191,7 @@ template <class P, class Body> void for_each_particle_array(P &p, const Body &bo
 }
 
 // Of every plate: visit(name, number), number(plate) being a reference.
-template <class Visit> void for_each_of_motion(const Visit &visit) {
+inline constexpr auto for_each_of_motion = [](const auto &visit) {
     visit(
         "driven", [](auto &p) -> auto & { return p.state().driven; });
     visit(
@@ -238,7 +238,7 @@ template <class Visit> void for_each_of_motion(const Visit &visit) {
         "impulse_y", [](auto &p) -> auto & { return p.impulse.y(); });
     visit("impulse_torque", &Plate::impulse_torque);
     visit("gap", &Plate::gap); // may be infinite
-}
+};
 
 // Which ghosts there are follows from the lists, and where they are from their plates: as these were then, or are now. But in the
 // schemes by number density ghosts go ahead of their plates, and stay so when these stop.

@@ -13,13 +13,12 @@ namespace {
 
 void write_materials(CheckpointWriter &file, const Scene &scene) {
     file.group("/materials");
-    write_items(file, scene.materials(), [](const auto &visit) { for_each_of_material(visit); });
+    write_items(file, scene.materials(), for_each_of_material);
 }
 
 void read_materials(CheckpointReader &file, const Checker &check, Sim &sim) {
     file.group("/materials");
-    const std::vector<gp_material> materials =
-        read_items(file, check, default_material(), [](const auto &visit) { for_each_of_material(visit); });
+    const std::vector<gp_material> materials = read_items(file, check, default_material(), for_each_of_material);
     check.require(!materials.empty(), "no material 0");
     for (std::size_t k = 1; k < materials.size(); ++k) // the first one is there
         sim.add_material(materials[k]);

@@ -11,13 +11,13 @@
 namespace gp::io {
 
 // Every number of a load, by its name in the file.
-template <class Visit> void for_each_of_load(const Visit &visit) {
+inline constexpr auto for_each_of_load = [](const auto &visit) {
     visit("id", &MeanLoad::id);
     visit("plate", &MeanLoad::plate);
     visit("x", &MeanLoad::x);
     visit("y", &MeanLoad::y);
     visit("couple", &MeanLoad::couple);
-}
+};
 
 // Those of all processes, on the first. Collective.
 inline std::vector<MeanLoad> loads_of_all(const World &world) {
@@ -43,7 +43,7 @@ inline std::vector<MeanLoad> loads_of_all(const World &world) {
 
 inline void write_loads(CheckpointWriter &file, const std::vector<MeanLoad> &loads) {
     file.group("/sleep");
-    write_items(file, loads, [](const auto &visit) { for_each_of_load(visit); });
+    write_items(file, loads, for_each_of_load);
 }
 
 // Particles have been read: of several processes each keeps the loads of its own.
@@ -53,8 +53,7 @@ inline void read_sleep(CheckpointReader &file, const Checker &check, World &worl
         check.require_each(p.repose.asleep[i] == 0 || (p.vx[i] == 0 && p.vy[i] == 0),
                            [] { return std::string("a particle that sleeps and moves"); });
     file.group("/sleep");
-    const std::vector<MeanLoad> loads =
-        read_items(file, check, MeanLoad(), [](const auto &visit) { for_each_of_load(visit); });
+    const std::vector<MeanLoad> loads = read_items(file, check, MeanLoad(), for_each_of_load);
     std::vector<int64_t> own(p.id.begin(), p.id.begin() + p.count);
     std::sort(own.begin(), own.end());
     for (const MeanLoad &load : loads) {

@@ -18,13 +18,6 @@ double position_unit(double spacing) {
 
 } // namespace
 
-std::string group_of_views(int64_t frame) {
-    return format_text("/frames/%06lld", static_cast<long long>(frame - frame % views_per_group));
-}
-std::string group_of_frame(int64_t frame) {
-    return group_of_views(frame) + format_text("/%06lld", static_cast<long long>(frame));
-}
-
 std::vector<RowRequest> row_requests(int64_t count, const std::vector<int> &widths) {
     std::vector<RowRequest> requests;
     const auto most = static_cast<int64_t>(Hdf5File::rows_per_chunk(static_cast<hsize_t>(count)));

@@ -17,6 +17,13 @@
 
 namespace gp::io {
 
+std::string group_of_views(int64_t frame) {
+    return format_text("/frames/%06lld", static_cast<long long>(frame - frame % views_per_group));
+}
+std::string group_of_frame(int64_t frame) {
+    return group_of_views(frame) + format_text("/%06lld", static_cast<long long>(frame));
+}
+
 struct FrameFile::Impl : FrameDatasets {
     std::string side_path;
     bool is_open = false;                  // the files on the disk are ours

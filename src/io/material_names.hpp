@@ -6,7 +6,7 @@
 namespace gp::io {
 
 // A material that grows does not compile here: it needs the new names, and the checkpoint a new format.
-template <class Visit> void for_each_of_material(const Visit &visit) {
+inline constexpr auto for_each_of_material = [](const auto &visit) {
     static_assert(sizeof(gp_material) == 80);
     visit("grain_density", &gp_material::grain_density);
     visit("volume_fraction", &gp_material::volume_fraction);
@@ -17,6 +17,6 @@ template <class Visit> void for_each_of_material(const Visit &visit) {
     visit("nonlocal_amplitude", &gp_material::nonlocal_amplitude);
     visit("fluidity_time", &gp_material::fluidity_time);
     visit("k0", &gp_material::k0);
-}
+};
 
 } // namespace gp::io

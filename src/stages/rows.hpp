@@ -57,15 +57,22 @@ struct Clusters {
     GP_INLINE Lanes seen(const Lanes &w, int64_t k) const { return seen_by_lanes(w, seen_by[k]); }
 };
 
-// Calls body(first, last) for runs of clusters of what is awake: for stages that keep no sum of a block. In halves of blocks, so
-// that of the sixteen that a thousand particles are no thread waits for long, and in as few calls as may be.
-template <class Body> void for_each_awake_cluster_run(const World &world, const Body &body) {
-    const Sleep &s = world.sleep;
-    const int32_t *of_block = world.clusters.cluster_of_block.data();
-    const auto edge = [of_block](int64_t half) {
+// The first cluster of each half of a block, of which block b has 2 b and 2 b + 1. In halves no thread waits for long for the last of
+// the sixteen blocks that a thousand particles are.
+struct Halves {
+    const int32_t *of_block;
+
+    explicit Halves(const World &world) : of_block(world.clusters.cluster_of_block.data()) {}
+    GP_INLINE int32_t operator()(int64_t half) const {
         const int64_t block = half / 2;
         return half % 2 == 0 ? of_block[block] : (of_block[block] + of_block[block + 1]) / 2;
-    };
+    }
+};
+
+// Calls body(first, last) for runs of clusters of what is awake: for stages that keep no sum of a block. In as few calls as may be.
+template <class Body> void for_each_awake_cluster_run(const World &world, const Body &body) {
+    const Sleep &s = world.sleep;
+    const Halves edge(world);
     for_each_share(world.threads, 2 * (s.some ? s.awake : world.clusters.blocks()), [&](int64_t begin, int64_t end) {
         if (!s.some)
             body(edge(begin), edge(end));
@@ -81,22 +88,19 @@ template <class Body> void for_each_awake_cluster_run(const World &world, const 
 template <class Part, class Whole>
 void for_each_awake_block_by_halves(World &world, const Part &part, const Whole &whole) {
     const Sleep &s = world.sleep;
-    const int32_t *of_block = world.clusters.cluster_of_block.data();
-    const Field<int64_t> &starts = world.clusters.starts;
+    const Halves edge(world);
+    const auto particle_at = [&](int64_t half) -> int64_t { return world.clusters.first[edge(half)]; };
     const auto block_at = [&](int64_t k) { return s.some ? int64_t{s.lit[k]} : k; };
     for_each_block_by_halves(
         world.threads, s.some ? s.awake : world.clusters.blocks(),
         [&](int64_t k) -> uint8_t & { return world.sums[block_at(k)].half_done; },
         [&](int64_t k, int64_t from, int64_t to) {
-            const int64_t first = of_block[block_at(k)], clusters = of_block[block_at(k) + 1] - first;
-            part(first + from * clusters / 2, first + to * clusters / 2);
+            const int64_t half = 2 * block_at(k);
+            part(edge(half + from), edge(half + to));
         },
         [&](int64_t k) {
             const int64_t block = block_at(k);
-            if (starts.empty())
-                whole(block, block * block_size, std::min(world.particles.count, (block + 1) * block_size));
-            else
-                whole(block, starts[block], starts[block + 1]);
+            whole(block, particle_at(2 * block), particle_at(2 * block + 2));
         });
 }
 

@@ -136,10 +136,9 @@ void make_lists(World &world) {
     ListOrigin &origin = world.list_origin;
     origin.x.resize(p.count);
     origin.y.resize(p.count);
-    for_each_share(world.threads, block_count(p.count), [&](int64_t begin, int64_t end) {
-        const int64_t first = begin * block_size, last = std::min(p.count, end * block_size);
-        std::copy(p.x.data() + first, p.x.data() + last, origin.x.data() + first);
-        std::copy(p.y.data() + first, p.y.data() + last, origin.y.data() + first);
+    for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
+        std::copy(p.x.data() + begin, p.x.data() + end, origin.x.data() + begin);
+        std::copy(p.y.data() + begin, p.y.data() + end, origin.y.data() + begin);
     });
     origin.plates.clear();
     for (const Plate &plate : world.walls.plates)

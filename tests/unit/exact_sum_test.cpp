@@ -12,10 +12,10 @@ using namespace gp;
 namespace {
 
 void expect_same(ExactLoad &load, const std::array<ExactSum, lane_count> &one_by_one, const char *what) {
-    const std::array<ExactSum *, lane_count> sums = load.all();
+    const std::array<ExactSum, lane_count> &sums = load.all();
     for (int l = 0; l < lane_count; ++l) {
-        EXPECT_TRUE(sums[l]->whole() == one_by_one[l].whole()) << what << " " << l;
-        EXPECT_EQ(sums[l]->value(0.5), one_by_one[l].value(0.5)) << what << " " << l;
+        EXPECT_TRUE(sums[l].whole() == one_by_one[l].whole()) << what << " " << l;
+        EXPECT_EQ(sums[l].value(0.5), one_by_one[l].value(0.5)) << what << " " << l;
     }
 }
 
@@ -61,8 +61,8 @@ TEST(ExactLoad, KnowsItsBounds) {
     }
     ExactLoad load;
     load.add(Lanes{NAN, 1, INFINITY, 2}, Lanes{} + 1.0);
-    EXPECT_TRUE(std::isnan(load.all()[0]->value(1)));
-    EXPECT_EQ(load.all()[1]->value(1), 1);
-    EXPECT_EQ(load.all()[2]->value(1), INFINITY);
-    EXPECT_EQ(load.all()[3]->value(1), 2);
+    EXPECT_TRUE(std::isnan(load.all()[0].value(1)));
+    EXPECT_EQ(load.all()[1].value(1), 1);
+    EXPECT_EQ(load.all()[2].value(1), INFINITY);
+    EXPECT_EQ(load.all()[3].value(1), 2);
 }
