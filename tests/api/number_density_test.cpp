@@ -34,7 +34,8 @@ TEST(NumberDensity, IsThatOfARowWhereverThePeriodEnds) {
         const std::vector<double> y = sim.field(GP_FIELD_Y), density = sim.field(GP_FIELD_NUMBER_DENSITY);
         for (std::size_t i = 0; i < y.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
-                if (std::abs(y[i] - y[j]) < 1e-6 * c.spacing)
+                if (std::abs(y[i] - y[j]) < 1e-6 * c.spacing) {
                     ASSERT_NEAR(density[i], density[j], 1e-6) << time << " " << i << " " << j;
+                }
     }
 }

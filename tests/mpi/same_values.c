@@ -35,8 +35,20 @@ static void add_plate(gp_sim *sim, const gp_plate *p) {
     check(gp_add_plate(sim, p, NULL), "gp_add_plate");
 }
 
-static void floor_of(gp_sim *sim, double left, double right) {
-    const gp_plate p = a_plate(right, 0, left, 0);
+/* One that rubs does by 0.3. */
+static void add_wall(gp_sim *sim, double x0, double y0, double x1, double y1, int32_t friction) {
+    gp_plate p = a_plate(x0, y0, x1, y1);
+    p.friction = friction;
+    if (friction == GP_WALL_COULOMB)
+        p.wall_mu = 0.3;
+    add_plate(sim, &p);
+}
+
+static void floor_of(gp_sim *sim, double left, double right) { add_wall(sim, right, 0, left, 0, GP_WALL_NO_SLIP); }
+
+static void add_line(gp_sim *sim, int n, const double *x, const double *y, double omega) {
+    gp_plate p = a_plate(0, 0, 0, 0);
+    p.n_points = n, p.point_x = x, p.point_y = y, p.omega = omega;
     add_plate(sim, &p);
 }
 
@@ -63,13 +75,9 @@ static void chute(gp_sim *s) { add_column(s, 0.01, 0, 0.16, 0.05, 0, 0.3, 0), fl
 static void box(gp_sim *s) {
     add_column(s, 0, 0, 0.08, 0.04, 0, 0, 0);
     floor_of(s, 0, 0.08);
-    gp_plate p = a_plate(0, 0, 0, 0.08);
-    p.friction = GP_WALL_FREE_SLIP;
-    add_plate(s, &p);
-    p = a_plate(0.08, 0.08, 0.08, 0);
-    p.friction = GP_WALL_COULOMB, p.wall_mu = 0.3;
-    add_plate(s, &p);
-    p = a_plate(-0.02, 0.04, 0.10, 0.04);
+    add_wall(s, 0, 0, 0, 0.08, GP_WALL_FREE_SLIP);
+    add_wall(s, 0.08, 0.08, 0.08, 0, GP_WALL_COULOMB);
+    gp_plate p = a_plate(-0.02, 0.04, 0.10, 0.04);
     p.vx = 0.2, p.normal_pressure = 500;
     add_plate(s, &p);
 }
@@ -80,9 +88,8 @@ static void add_gated(gp_sim *s, double width, double height, int n, const doubl
     static const double x[8];
     add_column(s, 0, 0, width, height, 0, 0, 0);
     floor_of(s, -1, 1);
-    gp_plate p = a_plate(0, 0, 0, 0.2);
-    add_plate(s, &p);
-    p = a_plate(width, 0.2, width, 0);
+    add_wall(s, 0, 0, 0, 0.2, GP_WALL_NO_SLIP);
+    gp_plate p = a_plate(width, 0.2, width, 0);
     p.n_knots = n, p.knot_t = t, p.knot_x = x, p.knot_y = y;
     add_plate(s, &p);
 }
@@ -100,21 +107,15 @@ static void drum(gp_sim *s) {
         y[k] = 0.08 * sin(-2 * acos(-1.0) * (k % n) / n);
     }
     add_column(s, -0.05, -0.055, 0.1, 0.05, 0, 0, 0);
-    gp_plate p = a_plate(0, 0, 0, 0);
-    p.n_points = n + 1, p.point_x = x, p.point_y = y, p.omega = 2;
-    add_plate(s, &p);
+    add_line(s, n + 1, x, y, 2);
 }
 
 static void hopper(gp_sim *s) {
     const double xl[] = {-0.01, -0.05, -0.05}, yl[] = {0.0, 0.05, 0.2}, xr[] = {0.05, 0.05, 0.01}, yr[] = {0.2, 0.05, 0.0};
     add_column(s, -0.05, 0.06, 0.1, 0.08, 0, 0, -0.2);
-    gp_plate p = a_plate(0, 0, 0, 0);
-    p.n_points = 3, p.point_x = xl, p.point_y = yl;
-    add_plate(s, &p);
-    p.point_x = xr, p.point_y = yr;
-    add_plate(s, &p);
-    p = a_plate(0.5, -0.1, -0.5, -0.1);
-    add_plate(s, &p);
+    add_line(s, 3, xl, yl, 0);
+    add_line(s, 3, xr, yr, 0);
+    add_wall(s, 0.5, -0.1, -0.5, -0.1, GP_WALL_NO_SLIP);
 }
 
 static void two_materials(gp_sim *s) {
@@ -159,10 +160,8 @@ static void wall_within(gp_sim *s) {
     add_column(s, -0.08, 0, 0.078, 0.08, 0, 0, 0);
     add_column(s, 0.002, 0, 0.08, 0.04, 0, 0, 0);
     floor_of(s, -1, 1);
-    gp_plate p = a_plate(0, 0, 0, 0.2);
-    add_plate(s, &p);
-    p = a_plate(0, 0.2, 0, 0);
-    add_plate(s, &p);
+    add_wall(s, 0, 0, 0, 0.2, GP_WALL_NO_SLIP);
+    add_wall(s, 0, 0.2, 0, 0, GP_WALL_NO_SLIP);
 }
 
 static void blow(gp_config *c) { c->spacing = 0.004, c->sound_speed = 4, c->retry_halvings = 4, c->time_step = 0.0008, c->allow_unstable_step = 1; }
@@ -189,11 +188,8 @@ static void bed(gp_sim *s) {
     add_column(s, 0, 0, 0.24, 0.04, 0, 0, 0);
     add_column(s, 0.1, 0.3, 0.032, 0.032, 0, 0, 0);
     floor_of(s, 0, 0.24);
-    gp_plate p = a_plate(0, 0, 0, 1);
-    p.friction = GP_WALL_FREE_SLIP;
-    add_plate(s, &p);
-    p = a_plate(0.24, 1, 0.24, 0);
-    add_plate(s, &p);
+    add_wall(s, 0, 0, 0, 1, GP_WALL_FREE_SLIP);
+    add_wall(s, 0.24, 1, 0.24, 0, GP_WALL_NO_SLIP);
 }
 static void held(gp_sim *s) {
     static const double t[] = {0, 0.35, 0.36, 0.6}, y[] = {0, 0, 0.002, 0.3};
@@ -220,12 +216,6 @@ static void add_lattice(gp_sim *s, double spacing, double left, double right, do
             if (inside(a, b))
                 x[n] = a, y[n++] = b;
     check(gp_add_particles(s, 0, rank == 0 ? n : 0, x, y, NULL, NULL, NULL), "gp_add_particles");
-}
-
-static void add_line(gp_sim *s, int n, const double *x, const double *y, double omega) {
-    gp_plate p = a_plate(0, 0, 0, 0);
-    p.n_points = n, p.point_x = x, p.point_y = y, p.omega = omega;
-    add_plate(s, &p);
 }
 
 /* An annular cell: the inner wall turns, the outer ones press. */
@@ -312,13 +302,9 @@ static void hit_block(gp_sim *s) {
     const double left = 0.1, right = 0.13, top = 0.03, x[] = {right, right, left, left}, y[] = {0, top, top, 0};
     add_column(s, 0, 0, 0.08, 0.1, 0, 1, 0);
     floor_of(s, -1, 1);
-    gp_plate p = a_plate(0, 0, 0, 0.2);
-    add_plate(s, &p);
-    for (int k = 0; k < 3; ++k) {
-        p = a_plate(x[k], y[k], x[k + 1], y[k + 1]);
-        p.friction = GP_WALL_FREE_SLIP;
-        add_plate(s, &p);
-    }
+    add_wall(s, 0, 0, 0, 0.2, GP_WALL_NO_SLIP);
+    for (int k = 0; k < 3; ++k)
+        add_wall(s, x[k], y[k], x[k + 1], y[k + 1], GP_WALL_FREE_SLIP);
     body *b = new_body();
     *b = (body){2, 3, 1500 * 0.03 * 0.03, 0};
     check(gp_set_callback(s, 1, push, b), "gp_set_callback");
@@ -333,12 +319,8 @@ static int32_t pull(void *user, gp_sim *s) { /* a weight of 4 kg, over a pulley 
 static void pulled_gate(gp_sim *s) {
     add_column(s, 0, 0, 0.08, 0.08, 0, 0, 0);
     floor_of(s, -1, 1);
-    gp_plate p = a_plate(0, 0, 0, 0.1);
-    p.friction = GP_WALL_FREE_SLIP;
-    add_plate(s, &p);
-    p = a_plate(0.08, 0.1, 0.08, 0);
-    p.friction = GP_WALL_COULOMB, p.wall_mu = 0.3;
-    add_plate(s, &p);
+    add_wall(s, 0, 0, 0, 0.1, GP_WALL_FREE_SLIP);
+    add_wall(s, 0.08, 0.1, 0.08, 0, GP_WALL_COULOMB);
     body *b = new_body();
     *b = (body){2, 1, 5, 0};
     check(gp_set_callback(s, 1, pull, b), "gp_set_callback");
