@@ -7,10 +7,10 @@ import numpy as np
 
 import runs
 import theory
-from coefficients import CRITERION, NUMERICAL
+from coefficients import CRITERION, NUMERICAL, Coefficient
 from constants import CONSTANTS
 from markdown import significant
-from measures import QUANTITIES, between, change, changes, mean, root_mean_square, share_at_rest
+from measures import QUANTITIES, Change, between, change, changes, mean, root_mean_square, share_at_rest
 from results import Collection, Result
 from sections import FLOW, REST, present
 
@@ -80,17 +80,26 @@ def in_short(results: Collection) -> str:
     return " ".join(text for text in (part(results) for part in parts) if text)
 
 
+def _changes(results: Collection) -> list[tuple[str, Coefficient, float, Change]]:
+    """What the coefficients of the criterion do: quantity of the headlines, coefficient, value, change."""
+    return [
+        (column, c, value, one)
+        for column in HEADLINE
+        for c in NUMERICAL
+        if c.in_criterion
+        for value, one in changes(results, c, 32, column)
+    ]
+
+
 def _criterion_in_short(results: Collection) -> str:
     """What half and twice a coefficient do to the deposit."""
-    tried = [c for c in NUMERICAL if c.in_criterion]
-    known = {column: [(c, value, one) for c in tried for value, one in changes(results, c, 32, column)] for column in HEADLINE}
-    if not all(known.values()):
+    known = _changes(results)
+    if {column for column, *_ in known} != set(HEADLINE):
         return ""
     within = f"Half or twice a coefficient of the scheme changes the deposit of a collapse (L/dl = 32) by less than {100 * CRITERION:g} %"
     beyond = [
         f"{c.name} {value:g} ({QUANTITIES[column]} {one.text})"
-        for column in HEADLINE
-        for c, value, one in known[column]
+        for column, c, value, one in known
         if abs(one.value) > CRITERION
     ]
     return f"**{within}{', but for ' + ', '.join(beyond) if beyond else ': peak and run-out of 90 % of the mass'}.**"
@@ -98,15 +107,8 @@ def _criterion_in_short(results: Collection) -> str:
 
 def beyond(results: Collection) -> str:
     """Names and values of what changes the headlines by more than the criterion, for the pages."""
-    found = {
-        (c.name, value): None
-        for c in NUMERICAL
-        if c.in_criterion
-        for column in HEADLINE
-        for value, one in changes(results, c, 32, column)
-        if abs(one.value) > CRITERION
-    }
-    names = dict.fromkeys(name for name, _ in found)
+    found = {(c.name, value) for _, c, value, one in _changes(results) if abs(one.value) > CRITERION}
+    names = [c.name for c in NUMERICAL if any(c.name == name for name, _ in found)]
     return ", ".join(f"`{name}` {' and '.join(f'{value:g}' for own, value in sorted(found) if own == name)}" for name in names)
 
 

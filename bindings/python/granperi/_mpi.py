@@ -13,7 +13,7 @@ from typing import Iterator
 from ._enums import field_names
 from ._errors import ArgumentError, Error, UnsupportedError
 from ._output import DEFAULT_FIELDS
-from ._record import CHECKPOINT_SECONDS, Place, empty, require_new
+from ._record import CHECKPOINT_SECONDS, Place, begun, empty
 from ._result import Result
 from ._scene import Scene
 
@@ -62,9 +62,7 @@ def _folder(place: "Place | None", overwrite: bool) -> "Iterator[tuple[str, tupl
     """Where all nodes can read the start, as they do the result; and what mpiexec holds open, so that a run that outlives this process
     keeps the place locked."""
     if place is not None:
-        require_new(place, overwrite, [])
-        with place.locked() as lock:
-            empty(place.part)
+        with begun(place, overwrite, []) as lock:
             yield place.part, (lock,)
         return
     folder = tempfile.mkdtemp(prefix="granperi-", dir=".")

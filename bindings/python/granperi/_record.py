@@ -134,9 +134,7 @@ def record_scene(scene: Any, path: "str | os.PathLike[str]", progress: bool, ove
     with scene.build() as built:  # all mistakes in it are found before a file is touched
         probes = scene.add_probes(built)
         if not resume:
-            require_new(place, overwrite, scene.probe_files(place.path))
-            with place.locked():
-                empty(place.part)
+            with begun(place, overwrite, scene.probe_files(place.path)):
                 return _recorded(scene, built, probes, place, progress, checkpoint_seconds)
         asked = _Asked(built)
     with place.locked():
@@ -187,7 +185,16 @@ class _Asked:
         raise ArgumentError(f"{place.path} cannot be resumed: it is of another scene, whose {what}; {ANEW}, or name another output")
 
 
-def require_new(place: Place, overwrite: bool, probe_files: list[str]) -> None:
+@contextlib.contextmanager
+def begun(place: Place, overwrite: bool, probe_files: list[str]) -> Iterator[int]:
+    """Place.locked(), for a run from the start: nothing of an earlier one is beside it."""
+    _require_new(place, overwrite, probe_files)
+    with place.locked() as lock:
+        empty(place.part)
+        yield lock
+
+
+def _require_new(place: Place, overwrite: bool, probe_files: list[str]) -> None:
     if overwrite:
         return
     if taken := [file for file in (place.path, *probe_files) if os.path.exists(file)]:
