@@ -18,6 +18,8 @@ void Particles::allocate(int64_t n, const Optional &use) {
     if (use.shape)
         for (Field<double> *field : {&gxx, &gxy, &gyy, &cyx, &cyy})
             field->resize(size);
+    if (use.mean_pressure)
+        mean_pressure.resize(size);
     if (use.syy)
         syy.resize(size);
     if (use.stressed)
@@ -47,9 +49,9 @@ void Particles::make_room(int64_t images) {
     grow(column);
     // The gradient and its like are not read of neighbours, but their memory changes places with that of fields that are.
     for (Field<double> *field :
-         {&x,      &y,   &vx,       &vy,   &density,      &pressure, &sxx,        &sxy,         &lxx, &lxy,
-          &lyx,    &lyy, &cxx,      &cxy,  &cyx,          &cyy,      &syy,        &ax,          &ay,  &push_x,
-          &push_y, &gyy, &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &bearing_flow})
+         {&x,      &y,   &vx,       &vy,   &density,      &pressure, &sxx,        &sxy,          &lxx,          &lxy,
+          &lyx,    &lyy, &cxx,      &cxy,  &cyx,          &cyy,      &syy,        &ax,           &ay,           &push_x,
+          &push_y, &gyy, &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &bearing_flow, &mean_pressure})
         grow(*field);
     Repose::for_each(repose,
                      [&](const char *, Field<double> &field) { grow(field); }); // changes places with ax in a sort
@@ -61,10 +63,11 @@ void Particles::resize(int64_t n) {
     id.resize(size);
     column.resize(size);
     for (Field<double> *field :
-         {&x,        &y,    &vx,           &vy,       &density,    &pressure,   &sxx,        &sxy,
-          &syy,      &lxx,  &lxy,          &lyx,      &lyy,        &gxx,        &gxy,        &gyy,
-          &cxx,      &cxy,  &cyx,          &cyy,      &ax,         &ay,         &push_x,     &push_y,
-          &stressed, &rest, &inverse_rest, &fluidity, &fluid_seen, &fluid_pull, &fluid_pace, &bearing_flow})
+         {&x,          &y,          &vx,         &vy,           &density,      &pressure,     &sxx,
+          &sxy,        &syy,        &lxx,        &lxy,          &lyx,          &lyy,          &gxx,
+          &gxy,        &gyy,        &cxx,        &cxy,          &cyx,          &cyy,          &ax,
+          &ay,         &push_x,     &push_y,     &stressed,     &rest,         &inverse_rest, &fluidity,
+          &fluid_seen, &fluid_pull, &fluid_pace, &bearing_flow, &mean_pressure})
         if (!field->empty())
             field->resize(size);
     if (repose.in_use())
@@ -90,7 +93,7 @@ void Particles::reorder(const Field<int32_t> &old_index, int threads) {
     gather_whole(column);
     // The gradient is made anew in each step, but readers may ask for it between a reorder and the next one.
     for (Field<double> *field :
-         {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &syy, &fluidity, &lxx, &lxy, &lyx, &lyy})
+         {&x, &y, &vx, &vy, &density, &pressure, &sxx, &sxy, &mean_pressure, &syy, &fluidity, &lxx, &lxy, &lyx, &lyy})
         if (!field->empty()) {
             gather(*field);
             field->swap(ax);

@@ -69,6 +69,8 @@ struct Particles {
     Field<double> density;  // kg/m3
     Field<double> pressure; // Pa
     Field<double> sxx, sxy; // Pa, deviatoric stress
+    // Pa, over Constants::pressure_memory: the inertial number goes by it; only where friction goes by that (stages/stress.cpp)
+    Field<double> mean_pressure;
     Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
 
     Repose repose;
@@ -109,6 +111,7 @@ struct Particles {
         bool bearing_flow; // density diffusion of one density beside fluidity
         bool densities;    // density diffusion between materials of different density
         bool shape;        // inverse shape tensor and the second row of sigma K^-1
+        bool mean_pressure; // friction goes by the inertial number
         bool syy;
         bool sleep;
     };

@@ -247,8 +247,9 @@ bool is_uneven(World &world) {
 std::vector<Field<double> *> carried_fields(Particles &p) {
     std::vector<Field<double> *> fields = {&p.x,   &p.y,   &p.vx,  &p.vy,  &p.density, &p.pressure,
                                            &p.sxx, &p.sxy, &p.lxx, &p.lxy, &p.lyx,     &p.lyy};
-    if (!p.fluidity.empty())
-        fields.push_back(&p.fluidity);
+    for (Field<double> *field : {&p.mean_pressure, &p.fluidity})
+        if (!field->empty())
+            fields.push_back(field);
     if (p.repose.in_use())
         Repose::for_each(p.repose, [&](const char *, Field<double> &field) { fields.push_back(&field); });
     return fields;

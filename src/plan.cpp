@@ -98,7 +98,8 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         // reads what neighbours pull the fluidity to, summed up by the gradient; writes it for the stress
         {"fluidity", t.particles && t.fluid, "a material has nonlocal_amplitude > 0", "nonlocal_amplitude is 0",
          stages::fluidity, awake, all_sleep},
-        // reads velocity gradient, pressure, shape tensor for the last time; writes stress, sigma K^-1; with fluidity that, too
+        // reads velocity gradient, pressure, its mean, shape tensor for the last time; writes stress, sigma K^-1; with fluidity that,
+        // too
         {"stress", t.particles, "elastic trial and return map", no_particles, stages::stress, awake, all_sleep},
         // reads pressure, stress; writes ghost stress
         {"wall_stress", walls, "a plate is within reach of material", t.particles ? no_plates : no_particles,
@@ -108,7 +109,7 @@ std::vector<PlannedStage> default_stages(const Traits &t) {
         {"force", t.particles, t.penalty ? "force states, gravity, zero-energy penalty" : "force states, gravity",
          no_particles,
          friction && t.scheme == Scheme::adjoint ? stages::force_and_friction : stages::force, awake, all_sleep},
-        // reads acceleration; writes velocity, position
+        // reads acceleration, pressure; writes velocity, position, the mean of the pressure
         {"integrate", t.particles, "particles move", no_particles, stages::integrate, awake, all_sleep},
         // reads what plates take off the slip, or finds it by the contact forces; writes velocity, position
         {"wall_friction", friction, "a plate has friction", "no plate has friction",
@@ -220,7 +221,6 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
     common("density", bytes_of(p.density));
     common("pressure", bytes_of(p.pressure));
     common("deviatoric_stress", bytes_of_all(p.sxx, p.sxy));
-    common("velocity_gradient", bytes_of_all(p.lxx, p.lxy, p.lyx, p.lyy));
     const auto optional = [&](const char *name, bool needed, const char *why, const char *why_not, int64_t bytes) {
         entries.push_back(field_entry(name, t.particles && needed,
                                       !t.particles ? always
@@ -228,6 +228,11 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                                    : why_not,
                                       bytes));
     };
+    optional("mean_pressure", world.constants.rate_dependent, "friction goes by the inertial number",
+             t.scheme == Scheme::adjoint ? "no material's friction goes by the inertial number (mu_2 = mu_s), but by fluidity"
+                                         : "a field of the default scheme",
+             bytes_of(p.mean_pressure));
+    common("velocity_gradient", bytes_of_all(p.lxx, p.lxy, p.lyx, p.lyy));
     const bool force_states = t.scheme != Scheme::paper_local, viscous = by_number_density(t.scheme);
     optional("viscous_stress_yy", viscous, "the viscous stress has a trace", "the deviatoric stress has no trace",
              bytes_of(p.syy));

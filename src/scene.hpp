@@ -173,6 +173,8 @@ struct Constants {
     double contrast_step;          // s, largest step that is stable where materials of different density meet
     double penalty;                // Pa s/m2 per unit of w: zero_energy_penalty rho c0 / (dl N0)
     double elastic_penalty;        // the same inside the yield surface, over that
+    double pressure_memory;        // s, over which the pressure of the inertial number is averaged
+    bool rate_dependent;           // a material in use has friction by the inertial number; only in the default scheme
     bool fluid;                    // a material in use has a fluidity
     std::vector<FluidityConstants> fluidities; // of the materials
     std::vector<MaterialConstants> materials;

@@ -32,8 +32,8 @@ std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &cons
     p.volume = c.volume;
     const bool exchanged = scene.config().density_diffusion > 0;
     p.allocate(count, {c.penalty > 0 && c.scheme != Scheme::adjoint, c.fluid, exchanged && c.fluid && c.one_density(),
-                       exchanged && !c.one_density(), c.scheme != Scheme::paper_local, by_number_density(c.scheme),
-                       scene.config().sleep == 1});
+                       exchanged && !c.one_density(), c.scheme != Scheme::paper_local, c.rate_dependent,
+                       by_number_density(c.scheme), scene.config().sleep == 1});
     world->sleep.in_use = scene.config().sleep == 1;
     const int64_t blocks = block_count(count);
     world->sums.resize(blocks);
@@ -69,6 +69,8 @@ void begin_particles(World &world, int64_t first) {
         p.vx[i] = velocity.x();
         p.vy[i] = velocity.y();
         p.pressure[i] = stress[i].pressure;
+        if (c.rate_dependent)
+            p.mean_pressure[i] = stress[i].pressure;
         p.sxx[i] = stress[i].sxx;
         p.sxy[i] = stress[i].sxy;
         p.density[i] = world.material_of(i).density + stress[i].pressure / (c.sound_speed * c.sound_speed);

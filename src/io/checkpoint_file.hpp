@@ -1,7 +1,7 @@
 // The container of a checkpoint: named numbers and arrays in an HDF5 file behind a block of text.
 //
 //   byte 0     granperi checkpoint
-//              format 4
+//              format 5
 //              library 0.2.0
 //              bytes <of the whole file, 20 digits>
 //              checksum <of all other bytes, 16 hexadecimal digits>
@@ -24,7 +24,7 @@
 
 namespace gp::io {
 
-constexpr uint32_t checkpoint_format = 4;
+constexpr uint32_t checkpoint_format = 5;
 
 // Writes the text in front of a whole file in memory, whose first 512 bytes are free for it.
 void seal(std::vector<unsigned char> &file, uint32_t format = checkpoint_format);

@@ -180,6 +180,7 @@ template <class P, class Body> void for_each_particle_array(P &p, const Body &bo
     body("pressure", p.pressure);
     body("sxx", p.sxx);
     body("sxy", p.sxy);
+    body("mean_pressure", p.mean_pressure);
     body("syy", p.syy);
     body("fluidity", p.fluidity);
     body("lxx", p.lxx);

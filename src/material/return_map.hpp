@@ -1,7 +1,7 @@
 // Elastic trial and return map of the mu(I) law (Dunatunga & Kamrin 2015): pure functions of one particle.
 //
 // The law is mu(I) = mu_s + (mu_2 - mu_s) / (I0/I + 1) with I = 2 d |gamma| / sqrt(p/rho_s); the equivalent shear stress
-// tau = sqrt(s:s/2) never exceeds mu(I) p. Inside the yield surface the material is elastic: it does not flow.
+// tau = sqrt(s:s/2) never exceeds mu(I) p. The pressure of I may be a mean of p (stages/stress.cpp). Inside the yield surface the material is elastic: it does not flow.
 #pragma once
 
 #include "lanes.hpp"
@@ -37,10 +37,11 @@ template <class Number> struct ReturnMapOf {
     Number shear_modulus; // G, Pa
 
     // Equivalent stress after the step from its elastic trial value, the root of
-    // (tau - mu_s p)(alpha + trial - tau) = (mu_2 - mu_s) p (trial - tau), alpha = rate_factor G dt sqrt(p).
-    GP_INLINE Number yielded(const Number &trial, const Number &pressure, double dt) const {
+    // (tau - mu_s p)(alpha + trial - tau) = (mu_2 - mu_s) p (trial - tau), alpha = rate_factor G dt sqrt(p of I).
+    GP_INLINE Number yielded(const Number &trial, const Number &pressure, const Number &pressure_of_rate,
+                             double dt) const {
         const Number s_s = mu_s * pressure, s_2 = mu_2 * pressure;
-        const Number alpha = rate_factor * shear_modulus * dt * root(pressure);
+        const Number alpha = rate_factor * shear_modulus * dt * root(pressure_of_rate);
         const Number b = s_2 + trial + alpha;
         const Number h = s_2 * trial + s_s * alpha;
         const Number discriminant = b * b - 4.0 * h;
@@ -59,9 +60,11 @@ template <class Number> struct ReturnMapOf {
     }
 
     // The factor by which the trial deviator shrinks; 1 inside the yield surface, 0 where there is no pressure.
-    GP_INLINE Number shrink(const Number &trial, const Number &pressure, double dt) const {
+    GP_INLINE Number shrink(const Number &trial, const Number &pressure, const Number &pressure_of_rate,
+                            double dt) const {
         const Number one = Number{} + 1.0;
-        const Number yields = choose(trial <= mu_s * pressure, one, yielded(trial, pressure, dt) / trial);
+        const Number yields =
+            choose(trial <= mu_s * pressure, one, yielded(trial, pressure, pressure_of_rate, dt) / trial);
         return where(pressure > 0.0, yields);
     }
 };

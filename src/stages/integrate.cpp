@@ -71,7 +71,11 @@ void integrate(World &world) {
     if (world.constants.scheme == Scheme::adjoint)
         accept_step(world);
     const double dt = world.clock.dt;
+    const double share = dt / (dt + world.constants.pressure_memory); // of the present pressure in the mean
     for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
+        if (world.constants.rate_dependent)
+            for (int64_t i = begin; i < end; ++i)
+                p.mean_pressure[i] += share * (p.pressure[i] - p.mean_pressure[i]);
         for (int64_t i = begin; i < end; ++i) {
             p.vx[i] += dt * p.ax[i];
             p.vy[i] += dt * p.ay[i];

@@ -7,9 +7,11 @@ have acted in one of them.
 import collections
 import dataclasses
 import sys
+import tempfile
 import warnings
 
 import granperi
+import h5py
 import numpy as np
 
 SPACING = 0.005
@@ -53,11 +55,20 @@ class Fields:
     rho: np.ndarray
     p: np.ndarray
     s: np.ndarray  # s_xx, s_xy
+    mean_p: np.ndarray  # over time, of I
 
     @classmethod
     def of(cls, sim):
+        with tempfile.TemporaryDirectory() as directory:
+            sim.save(f"{directory}/state.gpc")
+            with h5py.File(f"{directory}/state.gpc") as file:  # what no field shows
+                mean_p = np.array(sim.pressure)  # before the first step
+                if "particles" in file:
+                    kept, of_id = file["particles"], np.argsort(file["particles/id"])  # by id, as fields are
+                    assert np.array_equal(kept["x"][:][of_id], sim.x)
+                    mean_p = kept["mean_pressure"][:][of_id]
         return cls(np.column_stack([sim.x, sim.y]), np.column_stack([sim.vx, sim.vy]), np.array(sim.density),
-                   np.array(sim.pressure), np.column_stack([sim.sxx, sim.sxy]))
+                   np.array(sim.pressure), np.column_stack([sim.sxx, sim.sxy]), mean_p)
 
 
 def size(vectors):
@@ -191,11 +202,12 @@ def step(case, sim, begin, dt, seen):
     trial = np.column_stack([cosine * begin.s[:, 0] + sine * begin.s[:, 1], cosine * begin.s[:, 1] - sine * begin.s[:, 0]])
     trial += 2 * dt * shear[:, None] * np.column_stack([dxx, dxy])
     tau = size(trial)
-    alpha = m.i0 / (m.grain_diameter * np.sqrt(grains)) * shear * dt * np.sqrt(p)
+    alpha = m.i0 / (m.grain_diameter * np.sqrt(grains)) * shear * dt * np.sqrt(begin.mean_p)
     b, hh = m.mu_2 * p + tau + alpha, m.mu_2 * p * tau + m.mu_s * p * alpha
     returned = divided(2 * hh, b + np.sqrt(np.maximum(b * b - 4 * hh, 0)))
     shrink = np.where(p > 0, np.where(tau <= m.mu_s * p, 1, divided(returned, tau)), 0)
     s = shrink[:, None] * trial
+    mean_p = begin.mean_p + dt / (dt + 100 * dl / c0) * (p - begin.mean_p)
     eta = c.bulk_viscosity * rest * c0 * dl
     bulk = np.where(p > 0, np.maximum(-eta * divergence, -p), 0)
     with_drag = s + 2 * eta[:, None] * np.column_stack([dxx, dxy])
@@ -285,7 +297,7 @@ def step(case, sim, begin, dt, seen):
         change[i] = -np.sign(slip) * min(abs(slip), mu * blow), blow
         seen["contact"] += 1
     push(change)
-    return Fields(x, u, rho, p, s)
+    return Fields(x, u, rho, p, s, mean_p)
 
 
 def main():
@@ -304,7 +316,7 @@ def main():
             end, dt = Fields.of(sim), sim.clock.dt
             told = step(case, sim, begin, dt, seen)
         off = {}
-        for name in ("rho", "p", "s", "u", "x"):
+        for name in ("rho", "p", "s", "u", "x", "mean_p"):
             there, here, before = (getattr(fields, name) for fields in (end, told, begin))
             off[name] = abs(here - there).max() / abs(there - before).max()
             if not off[name] <= ROUNDING:

@@ -40,24 +40,25 @@ const ReturnMap beads{0.384, 0.625, i0 / (d * std::sqrt(rho_s)), 5e4};
 TEST(ReturnMap, LandsOnTheFrictionLaw) {
     const double dt = 1e-4;
     for (double pressure : {1.0, 50.0, 700.0})
-        for (double over : {1.0001, 1.1, 2.0, 10.0, 1000.0}) {
-            const double trial = over * beads.mu_s * pressure;
-            const double tau = beads.shrink(trial, pressure, dt) * trial;
-            // The plastic shear rate is what the stress came back by; I follows from it, and mu from I.
-            const double rate = (trial - tau) / (beads.shear_modulus * dt);
-            const double inertial = rate * d / std::sqrt(pressure / rho_s);
-            const double mu = beads.mu_s + (beads.mu_2 - beads.mu_s) / (i0 / inertial + 1);
-            EXPECT_NEAR(tau, mu * pressure, 1e-9 * pressure) << "p " << pressure << " trial " << trial;
-        }
+        for (double over : {1.0001, 1.1, 2.0, 10.0, 1000.0})
+            for (double of_rate : {pressure, 0.2 * pressure, 3 * pressure}) {
+                const double trial = over * beads.mu_s * pressure;
+                const double tau = beads.shrink(trial, pressure, of_rate, dt) * trial;
+                // The plastic shear rate is what the stress came back by; I follows from it, and mu from I.
+                const double rate = (trial - tau) / (beads.shear_modulus * dt);
+                const double inertial = rate * d / std::sqrt(of_rate / rho_s);
+                const double mu = beads.mu_s + (beads.mu_2 - beads.mu_s) / (i0 / inertial + 1);
+                EXPECT_NEAR(tau, mu * pressure, 1e-9 * pressure) << "p " << pressure << " trial " << trial;
+            }
 }
 
 TEST(ReturnMap, LeavesWhatIsInsideAndBoundsWhatIsOutside) {
-    EXPECT_EQ(beads.shrink(0.999 * beads.mu_s * 100, 100, 1e-4), 1);
-    EXPECT_EQ(beads.shrink(5, 0, 1e-4), 0);
-    EXPECT_EQ(beads.shrink(0, 100, 1e-4), 1);
-    EXPECT_LE(beads.shrink(1e12, 100, 1e-4) * 1e12, beads.mu_2 * 100 * (1 + 1e-9));
+    EXPECT_EQ(beads.shrink(0.999 * beads.mu_s * 100, 100, 100, 1e-4), 1);
+    EXPECT_EQ(beads.shrink(5, 0, 100, 1e-4), 0);
+    EXPECT_EQ(beads.shrink(0, 100, 100, 1e-4), 1);
+    EXPECT_LE(beads.shrink(1e12, 100, 100, 1e-4) * 1e12, beads.mu_2 * 100 * (1 + 1e-9));
     const ReturnMap fluid{0, 0, beads.rate_factor, beads.shear_modulus};
-    EXPECT_EQ(fluid.shrink(5, 100, 1e-4), 0);
+    EXPECT_EQ(fluid.shrink(5, 100, 100, 1e-4), 0);
 }
 
 TEST(Rotation, KeepsTheMagnitudeAndTurnsByTwiceTheAngle) {
