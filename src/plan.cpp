@@ -229,7 +229,7 @@ std::vector<gp_plan_entry> describe_plan(const std::vector<PlannedStage> &stages
                                       bytes));
     };
     optional("mean_pressure", world.constants.rate_dependent, "friction goes by the inertial number",
-             t.scheme == Scheme::adjoint ? "no material's friction goes by the inertial number (mu_2 = mu_s), but by fluidity"
+             t.scheme == Scheme::adjoint ? "all material has mu_2 = mu_s or a fluidity"
                                          : "a field of the default scheme",
              bytes_of(p.mean_pressure));
     common("velocity_gradient", bytes_of_all(p.lxx, p.lxy, p.lyx, p.lyy));

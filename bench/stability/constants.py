@@ -40,5 +40,6 @@ CONSTANTS = (
     Constant("steepest_tangential", "src/stages/wall_extrapolation.cpp", ("0.25", "0.5", "1"), "steepest ratio of a ghost's tangential velocity away from yield"),
     Constant("normal_ratio", "src/stages/wall_extrapolation.cpp", ("0.125", "0.25", "0.5"), "ratio of a ghost's normal velocity"),
     Constant("least_elastic_penalty", "src/scene_constants.cpp", ("0.1", "0.2", "0.4"), "least penalty inside the yield surface"),
+    Constant("pressure_memory", "src/scene_constants.cpp", ("50", "100", "200"), "dl/c0 over which the pressure of the inertial number is averaged"),
     Constant("shear_to_bulk", "src/scene_constants.cpp", ("0.15", "0.3", "0.6"), "shear modulus over bulk modulus"),
 )  # fmt: skip

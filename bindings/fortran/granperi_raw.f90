@@ -315,7 +315,9 @@ module granperi_raw
             !! Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0; with GP_STRESS_REGULARIZED
             !! eta_r D, whose trace is not 0
         type(c_ptr) :: shear_rate !! 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3)
-        type(c_ptr) :: inertial_number !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4); 0 where p = 0
+        type(c_ptr) :: inertial_number
+            !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where p = 0. Friction goes
+            !! by a mean of the pressure over 100 dl / c0 (default scheme)
         type(c_ptr) :: viscosity !! Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6)
         type(c_ptr) :: number_density
             !! N = sum of w over the neighbours within interaction_radius ([1] 2.4); with GP_DENSITY_NUMBER the scheme's
@@ -921,12 +923,13 @@ module granperi_raw
         !> <path>.part-<process>-<number>, synced and renamed: whatever happens, path is the new checkpoint or the one
         !> before. A program that is killed may leave the part, to be deleted. After GP_E_IO (disk full, no such
         !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. The file
-        !> has about 125 bytes per particle, and 32 more for those of gp_add_particles; it takes no memory to speak of.
-        !> gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one
-        !> in another format, as those of 0.1 are: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of
-        !> the library that wrote it; another one may load it, if it has the format, but with other bits from there on.
-        !> Both are GP_E_UNSUPPORTED in a build without HDF5. C has one name space for types and functions, and gp_load
-        !> is also the type above: hence a macro over the function gp_load_file (binaries also export it as gp_load).
+        !> has about 133 bytes per particle (125 where mu_2 = mu_s), and 32 more for those of gp_add_particles; it takes
+        !> no memory to speak of. gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a
+        !> checkpoint: GP_E_IO; one in another format, as those of 0.1 are: GP_E_VERSION; *sim is then NULL. A
+        !> checkpoint is for the version of the library that wrote it; another one may load it, if it has the format,
+        !> but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5. C has one name space
+        !> for types and functions, and gp_load is also the type above: hence a macro over the function gp_load_file
+        !> (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim

@@ -106,7 +106,8 @@ module granperi_types
         real(c_double), pointer, contiguous :: shear_rate(:) => null()
             !! 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3)
         real(c_double), pointer, contiguous :: inertial_number(:) => null()
-            !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4); 0 where p = 0
+            !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where p = 0. Friction goes
+            !! by a mean of the pressure over 100 dl / c0 (default scheme)
         real(c_double), pointer, contiguous :: viscosity(:) => null()
             !! Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6)
         real(c_double), pointer, contiguous :: number_density(:) => null()

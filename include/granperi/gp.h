@@ -474,7 +474,8 @@ typedef struct gp_particles {
     const double *sxx, *sxy, *syy;  /* Pa, deviatoric stress s: the Cauchy stress is s - p 1, and sxx + syy = 0; with
                                        GP_STRESS_REGULARIZED eta_r D, whose trace is not 0 */
     const double *shear_rate;       /* 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3) */
-    const double *inertial_number;  /* I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4); 0 where p = 0 */
+    const double *inertial_number;  /* I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where
+                                       p = 0. Friction goes by a mean of the pressure over 100 dl / c0 (default scheme) */
     const double *viscosity;        /* Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6) */
     const double *number_density;   /* N = sum of w over the neighbours within interaction_radius ([1] 2.4); with
                                        GP_DENSITY_NUMBER the scheme's own, with the ghosts behind plates */
@@ -667,7 +668,8 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
  * is written beside its place as <path>.part-<process>-<number>, synced and renamed: whatever
  * happens, path is the new checkpoint or the one before. A program that is killed may leave the part, to be deleted. After
  * GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or be saved
- * elsewhere. The file has about 125 bytes per particle, and 32 more for those of gp_add_particles; it takes no memory to speak of.
+ * elsewhere. The file has about 133 bytes per particle (125 where mu_2 = mu_s), and 32 more for those of gp_add_particles; it takes no
+ * memory to speak of.
  *
  * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another
  * format, as those of 0.1 are: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;

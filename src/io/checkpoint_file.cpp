@@ -204,8 +204,8 @@ void CheckpointReader::require_whole() const {
         throw bad_file(path, "the checkpoint is damaged: its checksum is wrong");
     if (said.format == 0)
         throw bad_file(path, "there is no format 0 of checkpoints");
-    if (said.format !=
-        checkpoint_format) // what an earlier step left out cannot be made up: volume, walls, sums of the state
+    // What an earlier step left out cannot be made up: volume, walls, sums of the state, the mean pressure.
+    if (said.format != checkpoint_format)
         throw make_error(GP_E_VERSION, "%s: written by granperi %s in format %llu; this version, %s, reads format %u",
                          path.c_str(), said.library.c_str(), said.format, gp_version_string(), checkpoint_format);
 }

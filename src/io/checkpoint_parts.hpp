@@ -178,9 +178,9 @@ template <class P, class Body> void for_each_particle_array(P &p, const Body &bo
     body("vy", p.vy);
     body("density", p.density);
     body("pressure", p.pressure);
+    body("mean_pressure", p.mean_pressure);
     body("sxx", p.sxx);
     body("sxy", p.sxy);
-    body("mean_pressure", p.mean_pressure);
     body("syy", p.syy);
     body("fluidity", p.fluidity);
     body("lxx", p.lxx);

@@ -1,7 +1,8 @@
 // Elastic trial and return map of the mu(I) law (Dunatunga & Kamrin 2015): pure functions of one particle.
 //
-// The law is mu(I) = mu_s + (mu_2 - mu_s) / (I0/I + 1) with I = 2 d |gamma| / sqrt(p/rho_s); the equivalent shear stress
-// tau = sqrt(s:s/2) never exceeds mu(I) p. The pressure of I may be a mean of p (stages/stress.cpp). Inside the yield surface the material is elastic: it does not flow.
+// The law is mu(I) = mu_s + (mu_2 - mu_s) / (I0/I + 1) with I = 2 d |gamma| / sqrt(p/rho_s), whose pressure may be a mean of p
+// (stages/stress.cpp); the equivalent shear stress tau = sqrt(s:s/2) never exceeds mu(I) p. Inside the yield surface the material
+// is elastic: it does not flow.
 #pragma once
 
 #include "lanes.hpp"
@@ -33,7 +34,7 @@ GP_INLINE DeviatorOf<Number> rotate(const DeviatorOf<Number> &s, const Number &s
 // One material's constants for the map.
 template <class Number> struct ReturnMapOf {
     Number mu_s, mu_2;    // already multiplied by friction_factor
-    Number rate_factor;   // I0 / (d sqrt(rho_s)), so that I0/I = rate_factor sqrt(p) G dt / (tau_trial - tau)
+    Number rate_factor;   // I0 / (d sqrt(rho_s)), so that I0/I = rate_factor sqrt(p of I) G dt / (tau_trial - tau)
     Number shear_modulus; // G, Pa
 
     // Equivalent stress after the step from its elastic trial value, the root of

@@ -72,10 +72,13 @@ void integrate(World &world) {
         accept_step(world);
     const double dt = world.clock.dt;
     const double share = dt / (dt + world.constants.pressure_memory); // of the present pressure in the mean
+    constexpr double least = 1e-200; // Pa: what fades beyond is none, before its digits end
     for_each_awake_block(world, [&](int64_t, int64_t begin, int64_t end) {
         if (world.constants.rate_dependent)
-            for (int64_t i = begin; i < end; ++i)
-                p.mean_pressure[i] += share * (p.pressure[i] - p.mean_pressure[i]);
+            for (int64_t i = begin; i < end; ++i) {
+                const double mean = p.mean_pressure[i] + share * (p.pressure[i] - p.mean_pressure[i]);
+                p.mean_pressure[i] = mean > least ? mean : 0.0;
+            }
         for (int64_t i = begin; i < end; ++i) {
             p.vx[i] += dt * p.ax[i];
             p.vy[i] += dt * p.ay[i];

@@ -56,6 +56,9 @@ TEST(ReturnMap, LeavesWhatIsInsideAndBoundsWhatIsOutside) {
     EXPECT_EQ(beads.shrink(0.999 * beads.mu_s * 100, 100, 100, 1e-4), 1);
     EXPECT_EQ(beads.shrink(5, 0, 100, 1e-4), 0);
     EXPECT_EQ(beads.shrink(0, 100, 100, 1e-4), 1);
+    // Where the pressure has just begun, I knows of none: the largest friction.
+    EXPECT_NEAR(beads.shrink(90, 100, 0, 1e-4) * 90, beads.mu_2 * 100, 1e-12 * 100);
+    EXPECT_NEAR(beads.shrink(50, 100, 0, 1e-4) * 50, 50, 1e-12 * 100);
     EXPECT_LE(beads.shrink(1e12, 100, 100, 1e-4) * 1e12, beads.mu_2 * 100 * (1 + 1e-9));
     const ReturnMap fluid{0, 0, beads.rate_factor, beads.shear_modulus};
     EXPECT_EQ(fluid.shrink(5, 100, 100, 1e-4), 0);

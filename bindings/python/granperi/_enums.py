@@ -103,7 +103,7 @@ FIELD_MEANINGS = {
     "sxy": "deviatoric stress, Pa",
     "syy": "deviatoric stress, Pa: -sxx, but for Stress.REGULARIZED, whose eta_r D has a trace",
     "shear_rate": "|gamma| = sqrt(D:D / 2), D = (L + L^T) / 2, 1/s (Jin et al. 2021, 3.3)",
-    "inertial_number": "I = 2 d |gamma| / sqrt(p / rho_s), 0 where p = 0 (Jin et al. 2021, 3.4)",
+    "inertial_number": "I = 2 d |gamma| / sqrt(p / rho_s) by the pressure of this moment, 0 where p = 0 (Jin et al. 2021, 3.4)",
     "viscosity": "tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2), or eta_r, Pa s (Jin et al. 2021, 3.6)",
     "number_density": "N, the sum of the weights of the neighbours within interaction_radius (Jin et al. 2021, 2.4)",
     "fluidity": "g, the plastic shear rate 2 |gamma| over tau / p, 1/s; 0 without Material.nonlocal_amplitude",
