@@ -1,6 +1,7 @@
 /* Exact solutions: runs one of them and prints its error and what it cost, as lines of "name value unit".
  *
  *     exact CASE [--resolution N] [--horizon K] [--cfl C] [--sound-speed M] [--end SECONDS] [--angle DEGREES]
+ *              [--columns N]
  *
  * Resolution: particles over the thickness of the layer (hydrostatic: height of the column). --sound-speed is in largest
  * flow speeds. Every steady flow starts from its exact solution, so the error is what the scheme makes of it. */
@@ -16,6 +17,7 @@ static void usage(FILE *out) {
             "cases: hydrostatic, shear_box, bagnold, bagnold_startup, chute, couette_cell, slope,\n       gradient\n\n"
             "options [default]\n"
             "  --resolution N    particles over the height of the scene [20]\n"
+            "  --columns N       spacings in the periodic width of the layer [12]\n"
             "  --horizon K       in spacings [the scheme's own]\n"
             "  --cfl C           time step over spacing / wave speed [the scheme's own]\n"
             "  --sound-speed M   over the largest flow speed; hydrostatic: m/s [10]\n"
@@ -27,12 +29,13 @@ static void usage(FILE *out) {
 }
 
 int main(int argc, char **argv) {
-    options o = {20, 0, 0, 0, 0, 0, -1, -1, -1, 0};
-    double resolution = 20, profile_rows = 0;
+    options o = {20, 12, 0, 0, 0, 0, 0, -1, -1, -1, 0};
+    double resolution = 20, columns = 12, profile_rows = 0;
     const struct {
         const char *name;
         double *value;
     } known[] = {{"--resolution", &resolution},
+                 {"--columns", &columns},
                  {"--horizon", &o.horizon},
                  {"--cfl", &o.cfl},
                  {"--sound-speed", &o.mach},
@@ -62,7 +65,12 @@ int main(int argc, char **argv) {
         fprintf(stderr, "exact: --resolution %g: expected a whole number from 4 to 2000\n", resolution);
         return 2;
     }
+    if (!(columns >= 12 && columns <= 1000)) {
+        fprintf(stderr, "exact: --columns %g: expected a whole number from 12 to 1000\n", columns);
+        return 2;
+    }
     o.resolution = (int)resolution;
+    o.columns = (int)columns;
     o.profile = profile_rows != 0;
     if (argc < 2) {
         usage(stderr);

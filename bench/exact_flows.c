@@ -26,8 +26,8 @@ static incline bagnold_data(const law *l, double h, double angle) {
 static double surface_velocity(const layer *a) {
     double *u = field(a, GP_FIELD_VX), mean = 0;
     int64_t i;
-    for (i = a->count - BOX_CELLS; i < a->count; ++i)
-        mean += u[i] / BOX_CELLS;
+    for (i = a->count - a->columns; i < a->count; ++i)
+        mean += u[i] / a->columns;
     free(u);
     return mean;
 }
@@ -71,7 +71,7 @@ void bagnold(const options *o, int start_up) {
         double *u = field(&a, GP_FIELD_VX), *y = field(&a, GP_FIELD_Y), mean = 0, at = 0;
         const int64_t rows = o->resolution >= 20 ? o->resolution / 20 : 1;
         int64_t i;
-        for (i = a.count - rows * BOX_CELLS; i < a.count; ++i) {
+        for (i = a.count - rows * a.columns; i < a.count; ++i) {
             mean += u[i];
             at += bagnold_velocity(y[i], &b);
         }
@@ -191,8 +191,8 @@ void couette_cell(const options *o) {
         double fx, fy;
         const double end = o->end > 0 ? o->end : 2;
         fx = mean_plate_force(&a, &fy, 0.5 * end, end);
-        printf("shear_stress        %.6g Pa, exact %.6g\n", fx / (BOX_CELLS * a.spacing), c.tau);
-        printf("error_stress        %.6g of the shear stress\n", fx / (BOX_CELLS * a.spacing) / c.tau - 1);
+        printf("shear_stress        %.6g Pa, exact %.6g\n", fx / (a.columns * a.spacing), c.tau);
+        printf("error_stress        %.6g of the shear stress\n", fx / (a.columns * a.spacing) / c.tau - 1);
     }
     print_profile(&a, o, couette_velocity, &c, c.lid);
     print_cost(a.sim);
@@ -224,8 +224,8 @@ void slope(const options *o) {
         double mean = 0;
         CHECK(gp_run(a.sim, end * k / pieces));
         u = field(&a, GP_FIELD_VX);
-        for (n = 0; n < BOX_CELLS; ++n)
-            mean += u[a.count - 1 - n] / BOX_CELLS;
+        for (n = 0; n < a.columns; ++n)
+            mean += u[a.count - 1 - n] / a.columns;
         moved += 0.5 * (mean + last) * end / pieces;
         if (2 * k == pieces)
             half_way = moved;
@@ -235,7 +235,7 @@ void slope(const options *o) {
     printf("displacement        %.6g spacings of the surface\n", moved / a.spacing);
     printf("surface_velocity    %.6g m/s\n", last);
     printf("kinetic             %.6g of the initial energy\n",
-           state_of(a.sim).kinetic / (DENSITY * GRAVITY * h * h / 2 * BOX_CELLS * a.spacing));
+           state_of(a.sim).kinetic / (DENSITY * GRAVITY * h * h / 2 * a.columns * a.spacing));
     printf("at_rest             %d\n", (int)state_of(a.sim).at_rest);
     /* Gravity sets in at once and shears the layer a little: what counts is the second half of the time. */
     printf("error               %.6g spacings in the second half\n", fabs(moved - half_way) / a.spacing);

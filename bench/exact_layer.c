@@ -65,7 +65,7 @@ layer make_layer(const options *o, const scene *s) {
     gp_column column;
     int32_t id;
     int k;
-    const double spacing = s->thickness / o->resolution, width = BOX_CELLS * spacing;
+    const double spacing = s->thickness / o->resolution, width = o->columns * spacing;
     CHECK(gp_config_init(&config, sizeof config, GP_PRESET_DEFAULT));
     config.spacing = spacing;
     config.gravity_x = s->gx;
@@ -97,7 +97,8 @@ layer make_layer(const options *o, const scene *s) {
     }
     a.spacing = spacing;
     a.thickness = s->thickness;
-    a.count = (int64_t)BOX_CELLS * o->resolution;
+    a.columns = o->columns;
+    a.count = (int64_t)o->columns * o->resolution;
     a.bottom = add_plate(a.sim, width, 0, 0, s->floor_speed, 0);
     a.top = s->load > 0 ? add_plate(a.sim, 0, width, s->thickness, s->lid_speed, s->load) : -1;
     return a;
@@ -148,10 +149,10 @@ void print_profile(const layer *a, const options *o, profile exact, const void *
     for (k = 0; k < o->resolution; ++k) {
         double mean_u = 0, mean_exact = 0, mean_y = 0;
         int n;
-        for (n = 0; n < BOX_CELLS; ++n) {
-            mean_u += u[k * BOX_CELLS + n] / BOX_CELLS;
-            mean_y += y[k * BOX_CELLS + n] / BOX_CELLS;
-            mean_exact += exact(y[k * BOX_CELLS + n], data) / BOX_CELLS;
+        for (n = 0; n < a->columns; ++n) {
+            mean_u += u[k * a->columns + n] / a->columns;
+            mean_y += y[k * a->columns + n] / a->columns;
+            mean_exact += exact(y[k * a->columns + n], data) / a->columns;
         }
         square += (mean_u - mean_exact) * (mean_u - mean_exact);
         norm += mean_exact * mean_exact;

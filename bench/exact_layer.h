@@ -6,12 +6,11 @@
 
 typedef struct options {
     int resolution;
+    int columns;                           /* width of the periodic box in spacings */
     double horizon, cfl, mach, end, angle; /* 0: the case's own */
     double penalty, diffusion, viscosity;  /* negative: the scheme's own */
     int profile;
 } options;
-
-enum { BOX_CELLS = 12 }; /* width of the periodic box in spacings */
 
 #define PI 3.14159265358979323846
 #define GRAIN_DENSITY 2500.0 /* kg/m3 */
@@ -28,6 +27,7 @@ typedef double (*profile)(double y, const void *data);
 typedef struct layer {
     gp_sim *sim;
     int64_t count;
+    int columns; /* particles in a row */
     double spacing, thickness, c0;
     int32_t bottom, top;
 } layer;

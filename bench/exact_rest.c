@@ -104,7 +104,7 @@ void shear_box(const options *o) {
            tau_over_p, bulk);
     printf("error               %.6g of mu on the floor\n", fx / fabs(fy) / mu - 1);
     printf("error_inside        %.6g\n", tau_over_p / bulk - 1);
-    printf("error_load          %.6g\n", fabs(fy) / (load * BOX_CELLS * a.spacing) - 1);
+    printf("error_load          %.6g\n", fabs(fy) / (load * a.columns * a.spacing) - 1);
     print_profile(&a, o, linear, &data, rate * thickness / 2);
     print_cost(a.sim);
     gp_destroy(a.sim);

@@ -90,7 +90,8 @@ EXACT_CASES: dict[str, tuple[str, tuple[str, ...], tuple[int, ...], float]] = {
     # c0: 10 u, or what is 10 sqrt(2 g h) at least, for a layer that its own weight does not compress
     "Bagnold, 23°, c0 = 25 u": ("bagnold", ("--angle", "23", "--end", "4", "--sound-speed", "25"), (10, 20, 40), 0.5),
     "Bagnold, 24°, c0 = 15 u": ("bagnold", ("--angle", "24", "--end", "4", "--sound-speed", "15"), (10, 20, 40), 0.5),
-    "Bagnold, 28°, c0 = 10 u": ("bagnold", ("--angle", "28", "--end", "4"), (10, 20, 40), 2.1),
+    "Bagnold, 28°, c0 = 10 u": ("bagnold", ("--angle", "28", "--end", "4", "--columns", "48"), (10, 20, 40), 8.5),
+    "Bagnold, 28°, c0 = 10 u, 12 dl wide": ("bagnold", ("--angle", "28", "--end", "4"), (10, 20, 40), 2.1),
     "Bagnold start-up, c0 = 10 u": ("bagnold_startup", (), (20, 40), 0.3),
     "Bagnold start-up, c0 = 40 u": ("bagnold_startup", ("--sound-speed", "40"), (20, 40), 1.2),
     "chute": ("chute", (), (20, 40, 80), 1.4),
