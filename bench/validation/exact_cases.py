@@ -19,7 +19,7 @@ def cases(results: Collection) -> list[Case]:
         _at("Bagnold flow, 26°, c0 = 20 u", "1 % at h/dl = 20, 0.3 % at 40", results, ("Bagnold, c0 = 20 u",), {20: 0.01, 40: 0.003}),
         *(
             _at(f"Bagnold flow, {name}, after 4 s", "1 % at h/dl = 20, 0.3 % at 40", results, (f"Bagnold, {name}",), {20: 0.01, 40: 0.003})
-            for name in ("23°, c0 = 25 u", "24°, c0 = 15 u", "28°, c0 = 10 u", "28°, c0 = 10 u, 12 dl wide")
+            for name in ("23°, c0 = 25 u", "23°, c0 = 50 u", "24°, c0 = 15 u", "28°, c0 = 10 u", "28°, c0 = 10 u, 12 dl wide")
         ),
         _at(
             "start of Bagnold flow, t ≤ 0.15 s", "± 2 %", results,

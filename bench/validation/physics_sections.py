@@ -222,5 +222,6 @@ def exact(results: Collection) -> str:
 Bagnold's flow begins with the exact solution, h = 4 cm = 20 d, and departs from it as slowly as it would start up, within one to three
 seconds. Without an angle it is that at 26°, after 1.5 s; at the other angles it is looked at after 4 s. Boxes are 12 dl wide, at 28°
 also 48 dl: a narrow layer jumps as a whole there. u is the speed of its surface;
-at 23 and 24° c0 is more than 10 u, so that the weight of the layer compresses it by 0.4 % at most. The start-up is from rest, to
+at 23 and 24° c0 is more than 10 u, so that the weight of the layer compresses it by 0.4 % at most. What is left there is the elastic
+stress, which lags behind the turning of the material and bears some of the weight: it goes with 1/c0², as twice that c0 shows. The start-up is from rest, to
 0.15 s; what follows is [below](#from-rest-on-an-incline)."""

@@ -89,6 +89,7 @@ EXACT_CASES: dict[str, tuple[str, tuple[str, ...], tuple[int, ...], float]] = {
     "Bagnold, c0 = 20 u": ("bagnold", ("--end", "1.5", "--sound-speed", "20"), (10, 20, 40), 1.6),
     # c0: 10 u, or what is 10 sqrt(2 g h) at least, for a layer that its own weight does not compress
     "Bagnold, 23°, c0 = 25 u": ("bagnold", ("--angle", "23", "--end", "4", "--sound-speed", "25"), (10, 20, 40), 0.5),
+    "Bagnold, 23°, c0 = 50 u": ("bagnold", ("--angle", "23", "--end", "4", "--sound-speed", "50"), (10, 20, 40), 1.0),
     "Bagnold, 24°, c0 = 15 u": ("bagnold", ("--angle", "24", "--end", "4", "--sound-speed", "15"), (10, 20, 40), 0.5),
     "Bagnold, 28°, c0 = 10 u": ("bagnold", ("--angle", "28", "--end", "4", "--columns", "48"), (10, 20, 40), 8.5),
     "Bagnold, 28°, c0 = 10 u, 12 dl wide": ("bagnold", ("--angle", "28", "--end", "4"), (10, 20, 40), 2.1),
