@@ -77,7 +77,7 @@ class Allocations : public testing::TestWithParam<Flow> {};
 TEST_P(Allocations, OfAStepAreNoneAfterWarmUp) {
     Sim sim(flow_config(GetParam()));
     add_flow(sim, GetParam());
-    ASSERT_EQ(gp_step(sim, 600), GP_OK) << gp_last_error();
+    ASSERT_EQ(gp_step(sim, 1000), GP_OK) << gp_last_error();
     EXPECT_GT(allocations, 0) << "operator new is not counted";
     const long before = allocations;
     ASSERT_EQ(gp_step(sim, 300), GP_OK) << gp_last_error();
