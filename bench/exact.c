@@ -28,6 +28,15 @@ static void usage(FILE *out) {
             "  --profile 1       prints rows of y, velocity, exact velocity [0]\n");
 }
 
+/* Ends the program unless value is within its bounds. */
+static int whole(const char *name, double value, int least, int most) {
+    if (!(value >= least && value <= most)) {
+        fprintf(stderr, "exact: %s %g: expected a whole number from %d to %d\n", name, value, least, most);
+        exit(2);
+    }
+    return (int)value;
+}
+
 int main(int argc, char **argv) {
     options o = {20, 12, 0, 0, 0, 0, 0, -1, -1, -1, 0};
     double resolution = 20, columns = 12, profile_rows = 0;
@@ -61,16 +70,8 @@ int main(int argc, char **argv) {
             return 2;
         }
     }
-    if (!(resolution >= 4 && resolution <= 2000)) {
-        fprintf(stderr, "exact: --resolution %g: expected a whole number from 4 to 2000\n", resolution);
-        return 2;
-    }
-    if (!(columns >= 12 && columns <= 1000)) {
-        fprintf(stderr, "exact: --columns %g: expected a whole number from 12 to 1000\n", columns);
-        return 2;
-    }
-    o.resolution = (int)resolution;
-    o.columns = (int)columns;
+    o.resolution = whole("--resolution", resolution, 4, 2000);
+    o.columns = whole("--columns", columns, 12, 1000);
     o.profile = profile_rows != 0;
     if (argc < 2) {
         usage(stderr);

@@ -307,15 +307,18 @@ Constants Scene::constants(const Impact &impact) const {
     c.body_material.reserve(bodies_.size());
     for (const Body &body : bodies_)
         c.body_material.push_back(body.material);
-    c.fluid = std::any_of(c.body_material.begin(), c.body_material.end(), [&](int32_t material) {
-        return c.fluidities[static_cast<std::size_t>(material)].cooperativity2 > 0;
-    });
+    const auto in_use = [&](const auto &is) { // one of which is(material, fluidity) holds
+        return std::any_of(c.body_material.begin(), c.body_material.end(), [&](int32_t material) {
+            const auto k = static_cast<std::size_t>(material);
+            return is(c.materials[k], c.fluidities[k]);
+        });
+    };
+    const auto is_fluid = [](const MaterialConstants &, const FluidityConstants &f) { return f.cooperativity2 > 0; };
+    c.fluid = in_use(is_fluid);
     c.pressure_memory = pressure_memory * c.spacing / c.sound_speed;
     c.rate_dependent =
-        c.scheme == Scheme::adjoint &&
-        std::any_of(c.body_material.begin(), c.body_material.end(), [&](int32_t material) {
-            const auto k = static_cast<std::size_t>(material);
-            return c.materials[k].map.mu_2 > c.materials[k].map.mu_s && c.fluidities[k].cooperativity2 == 0;
+        c.scheme == Scheme::adjoint && in_use([&](const MaterialConstants &m, const FluidityConstants &f) {
+            return m.map.mu_2 > m.map.mu_s && !is_fluid(m, f);
         });
     c.plate_mass = light_plate * heaviest * c.spacing;
     c.plate_step = INFINITY;

@@ -4,8 +4,8 @@
 // the mean stress of its span has last changed by more than `quiet_stress` of itself and of the weight of a spacing since,
 // or the span's mean velocity has been such that a wave of half that stress would go out from it if it stopped. A span in
 // which one has been quiet for less than that time is restless. What sees a restless span, or a ghost of a plate that acts, is
-// computed, and nothing else: it is left out of the stages, at rest, with the stress and the mean pressure that it has. Between a restless span and
-// one that sleeps there is a ring of spans as wide as particles see, horizon and skin; a wave takes several steps through it,
+// computed, and nothing else: it is left out of the stages, at rest, with the stress and the mean pressure that it has. Between a
+// restless span and one that sleeps there is a ring of spans as wide as particles see, horizon and skin; a wave takes several steps through it,
 // each of which looks at the ring, so that all that changes a stress by more than the hundredths above wakes what is behind
 // before it is there. What is weaker ends at the border: the force of what is awake on what sleeps is held, as by friction at
 // rest, and its momentum with it.

@@ -40,8 +40,7 @@ TEST(ShearBox, HasTheFrictionOfTheLawAtTheImposedRate) {
 TEST(BagnoldFlow, KeepsItsProfileAndSurfaceVelocity) {
     const Law law;
     const double h = 0.04, angle = degrees(26);
-    const double factor = 2.0 / 3 * law.inertial(std::tan(angle)) / law.d * std::sqrt(0.62 * gravity * std::cos(angle));
-    const auto exact = [&](double y) { return factor * (std::pow(h, 1.5) - std::pow(std::max(h - y, 0.0), 1.5)); };
+    const auto exact = [&](double y) { return law.bagnold(26, h, y); };
     EXPECT_NEAR(exact(h), 1.4167, 1e-4);
     Layer layer(20, h, gravity * std::sin(angle), -gravity * std::cos(angle), 14.2, law.d, exact);
     layer.floor();
@@ -65,8 +64,7 @@ TEST(BagnoldFlow, KeepsItsProfileAndSurfaceVelocity) {
 TEST(BagnoldFlow, DoesNotRunAwayOnASteepIncline) {
     const Law law;
     const double h = 0.04, angle = degrees(28);
-    const double factor = 2.0 / 3 * law.inertial(std::tan(angle)) / law.d * std::sqrt(0.62 * gravity * std::cos(angle));
-    const auto exact = [&](double y) { return factor * (std::pow(h, 1.5) - std::pow(std::max(h - y, 0.0), 1.5)); };
+    const auto exact = [&](double y) { return law.bagnold(28, h, y); };
     EXPECT_NEAR(exact(h), 2.9422, 1e-4);
     Layer layer(10, h, gravity * std::sin(angle), -gravity * std::cos(angle), 20 * exact(h), law.d, exact);
     layer.floor();

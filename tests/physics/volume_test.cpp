@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "../support/ensemble.hpp"
+#include "../support/layer.hpp"
 
 using namespace test;
 
@@ -77,12 +78,8 @@ struct ShakenLayer {
     int32_t floor = -1;
 };
 
-// u = 2/3 (I/d) sqrt(phi g cos) [h^1.5 - (h - y)^1.5], of glass beads of 2 mm.
 double bagnold(double slope, double y) {
-    const double mu = std::tan(degrees(slope)), mu_s = std::tan(degrees(21)), mu_2 = std::tan(degrees(32)), d = 0.002;
-    const double inertial = 0.3 * (mu - mu_s) / (mu_2 - mu);
-    return 2. / 3 * inertial / d * std::sqrt(0.62 * 9.81 * std::cos(degrees(slope))) *
-           (std::pow(thickness, 1.5) - std::pow(std::max(0.0, thickness - y), 1.5));
+    return Law().bagnold(slope, thickness, y);
 }
 
 } // namespace

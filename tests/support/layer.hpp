@@ -11,6 +11,12 @@ struct Law {
     double mu_s = std::tan(degrees(21)), mu_2 = std::tan(degrees(32)), i0 = 0.3, d = 0.002;
     double mu(double inertial) const { return mu_s + (mu_2 - mu_s) * inertial / (i0 + inertial); }
     double inertial(double mu) const { return i0 * (mu - mu_s) / (mu_2 - mu); }
+    // Bagnold's flow of a layer down a slope in degrees, of volume fraction .62, at the height y:
+    // u = 2/3 (I/d) sqrt(phi g cos) [h^1.5 - (h - y)^1.5].
+    double bagnold(double slope, double thickness, double y) const {
+        return 2.0 / 3 * inertial(std::tan(degrees(slope))) / d * std::sqrt(0.62 * 9.81 * std::cos(degrees(slope))) *
+               (std::pow(thickness, 1.5) - std::pow(std::max(thickness - y, 0.0), 1.5));
+    }
 };
 
 // Ten rows in one piece on a rough floor, at an angle in degrees.
