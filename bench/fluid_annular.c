@@ -55,10 +55,10 @@ typedef struct sums {
 } sums;
 
 static void add_sample(sums *s, gp_sim *sim, double inner, double zone, double spacing) {
-    const int64_t n = fluid_state(sim).n_particles;
-    double *x = fluid_field(sim, GP_FIELD_X, n), *y = fluid_field(sim, GP_FIELD_Y, n);
-    double *u = fluid_field(sim, GP_FIELD_VX, n), *v = fluid_field(sim, GP_FIELD_VY, n);
-    double *p = fluid_field(sim, GP_FIELD_PRESSURE, n);
+    const int64_t n = example_state(sim).n_particles;
+    double *x = bench_field(sim, GP_FIELD_X, n), *y = bench_field(sim, GP_FIELD_Y, n);
+    double *u = bench_field(sim, GP_FIELD_VX, n), *v = bench_field(sim, GP_FIELD_VY, n);
+    double *p = bench_field(sim, GP_FIELD_PRESSURE, n);
     int64_t i;
     for (i = 0; i < n; ++i) {
         const double r = hypot(x[i], y[i]);
@@ -97,14 +97,14 @@ void fluid_annular(const choices *c) {
     add_outer_ring(sim, outer, spacing);
     add_rings(sim, 1, inner, outer * cos(pi / PLATES), rows, spacing);
     CHECK(gp_run(sim, c->end - span));
-    before = fluid_load(sim, ring).impulse_torque;
+    before = example_load(sim, ring).impulse_torque;
     for (k = 1; k <= SAMPLES; ++k) {
         CHECK(gp_run(sim, c->end - span + span * k / SAMPLES));
         add_sample(&s, sim, inner, inner + 3 * d, spacing);
     }
     exact.pressure = s.pressure / s.in_zone; /* it rises slowly, as the material cannot */
     fluid_annulus_turn(&exact, omega);
-    moment = -(fluid_load(sim, ring).impulse_torque - before) / span;
+    moment = -(example_load(sim, ring).impulse_torque - before) / span;
     for (k = 0; k < rows; ++k) {
         const double right = fluid_annulus_velocity(&exact, inner + (k + 0.5) * spacing) / (omega * inner);
         worst = fmax(worst, fabs(s.speed[k] / fmax(1, s.count[k]) / (omega * inner) - right));
@@ -113,6 +113,6 @@ void fluid_annular(const choices *c) {
     printf("torque %.5g N\n", moment);
     printf("torque_exact %.5g N\n", exact.moment);
     printf("profile %.4f of the ring's speed, the largest error\n", worst);
-    fluid_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "fluidity.h"
 #include "marks.h"
@@ -14,36 +13,6 @@ static const char usage[] = "usage: fluidity CASE [options]\n\n"
 
 static const double degree = 3.14159265358979323846 / 180, gravity = 9.81;
 enum { ACROSS = 12, MOST_ROWS = 1000 }; /* spacings in the period of layers */
-
-gp_state fluid_state(gp_sim *sim) {
-    gp_state state = {0};
-    state.struct_size = sizeof state;
-    CHECK(gp_get_state(sim, &state));
-    return state;
-}
-
-gp_load fluid_load(gp_sim *sim, int32_t plate) {
-    gp_load load = {0};
-    load.struct_size = sizeof load;
-    CHECK(gp_get_plate_load(sim, plate, &load));
-    return load;
-}
-
-double *fluid_field(gp_sim *sim, uint32_t bit, int64_t count) {
-    double *values = malloc(sizeof *values * (size_t)count);
-    if (!values)
-        exit(1);
-    CHECK(gp_copy_field(sim, bit, values, count));
-    return values;
-}
-
-void fluid_print_cost(gp_sim *sim) {
-    const gp_state s = fluid_state(sim);
-    printf("time %.6g s\n", s.time);
-    printf("particles %lld 1\n", (long long)s.n_particles);
-    printf("steps %lld 1\n", (long long)s.step);
-    printf("cpu_seconds %.3f s\n", (double)clock() / CLOCKS_PER_SEC);
-}
 
 gp_config fluid_config(const choices *c, double spacing) {
     static const char *const names[] = {"default", "paper"};
@@ -121,8 +90,8 @@ typedef struct profile {
 } profile;
 
 static void add_to_profile(profile *f, gp_sim *sim, double top, double spacing) {
-    const int64_t count = fluid_state(sim).n_particles;
-    double *y = fluid_field(sim, GP_FIELD_Y, count), *vx = fluid_field(sim, GP_FIELD_VX, count);
+    const int64_t count = example_state(sim).n_particles;
+    double *y = bench_field(sim, GP_FIELD_Y, count), *vx = bench_field(sim, GP_FIELD_VX, count);
     int64_t i;
     for (i = 0; i < count; ++i) {
         const int row = (int)fmin(fmax(floor((top - y[i]) / spacing), 0), f->rows - 1);
@@ -165,12 +134,12 @@ static void couette(const choices *c) {
     add_floor(sim, 0, config.periodic_x_max, 0, GP_FLUIDITY_FREE);
     lid = add_lid(sim, config.periodic_x_max, h, load, c->speed, zero ? GP_FLUIDITY_ZERO : GP_FLUIDITY_FREE);
     CHECK(gp_run(sim, 0.5 * c->end));
-    before = fluid_load(sim, lid);
+    before = example_load(sim, lid);
     mean.rows = (int)lround(h / spacing);
     for (k = 1; k <= samples; ++k) {
         double stress;
         CHECK(gp_run(sim, 0.5 * c->end * (1 + (double)k / samples)));
-        after = fluid_load(sim, lid);
+        after = example_load(sim, lid);
         stress = fabs(after.fx) / config.periodic_x_max;
         least = fmin(least, stress);
         most = fmax(most, stress);
@@ -198,7 +167,7 @@ static void couette(const choices *c) {
         if (m.nonlocal_amplitude > 0)
             printf("u_%g_exact %.4f of the lid's\n", grains[k], fluid_layer_velocity(&exact, grains[k] * d) / c->speed);
     }
-    fluid_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }
 
@@ -221,17 +190,17 @@ static void shear(const choices *c) {
     floor = add_floor(sim, 0, config.periodic_x_max, -rate * h / 2, GP_FLUIDITY_FREE);
     lid = add_lid(sim, config.periodic_x_max, h, load, rate * h / 2, GP_FLUIDITY_FREE);
     CHECK(gp_run(sim, 0.6 * c->end));
-    before = fluid_load(sim, floor);
+    before = example_load(sim, floor);
     CHECK(gp_run(sim, c->end));
-    after = fluid_load(sim, floor);
+    after = example_load(sim, floor);
     mean.rows = (int)lround(h / spacing);
-    add_to_profile(&mean, sim, h + fluid_load(sim, lid).dy, spacing);
+    add_to_profile(&mean, sim, h + example_load(sim, lid).dy, spacing);
     for (k = 0; k < mean.rows; ++k)
         worst = fmax(worst, fabs(mean.u[k] / mean.count[k] / (rate * h) - 0.5 + mean.depth[k] / mean.count[k] / h));
     printf("friction %.5f 1\n", (after.impulse_x - before.impulse_x) / -(after.impulse_y - before.impulse_y));
     printf("friction_exact %.5f 1\n", m.mu_s + (m.mu_2 - m.mu_s) * inertial / (m.i0 + inertial));
     printf("from_linear %.4f of the lid's\n", worst);
-    fluid_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }
 
@@ -252,16 +221,16 @@ static void incline(const choices *c) {
     add_column(sim, &m, 0, config.periodic_x_max, height);
     add_floor(sim, 0, config.periodic_x_max, 0, GP_FLUIDITY_ZERO);
     CHECK(gp_run(sim, c->end));
-    count = fluid_state(sim).n_particles;
-    g = fluid_field(sim, GP_FIELD_FLUIDITY, count);
+    count = example_state(sim).n_particles;
+    g = bench_field(sim, GP_FIELD_FLUIDITY, count);
     for (i = 0; i < count; ++i)
         largest = fmax(largest, g[i]);
     free(g);
     printf("stopping_height %.4f grains\n", stop / d);
     printf("height %.4f of the stopping height\n", height / stop);
     printf("fluidity %.4g 1/s\n", largest);
-    printf("speed %.4g m/s\n", fluid_state(sim).rms_speed);
-    fluid_print_cost(sim);
+    printf("speed %.4g m/s\n", example_state(sim).rms_speed);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }
 
@@ -281,7 +250,7 @@ static void collapse(const choices *c) {
     for (k = 1; k <= (int)lround(c->end / 0.02); ++k) {
         gp_state s;
         CHECK(gp_run(sim, 0.02 * k));
-        s = fluid_state(sim);
+        s = example_state(sim);
         if (!s.at_rest)
             rest = NAN;
         else if (isnan(rest))
@@ -297,9 +266,9 @@ static void collapse(const choices *c) {
         }
     }
     printf("rest %.3g s\n", rest);
-    printf("peak_drift %.2e of that at 2 s\n", fluid_state(sim).peak_height / peak_2 - 1);
+    printf("peak_drift %.2e of that at 2 s\n", example_state(sim).peak_height / peak_2 - 1);
     printf("run_out_90_drift %.2e of that at 2 s\n", run_out_of(sim, &feet, 0.9) / bulk_2 - 1);
-    fluid_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }
 

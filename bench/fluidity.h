@@ -5,6 +5,7 @@
 #include <granperi/gp.h>
 
 #include "../examples/c/example.h" /* CHECK */
+#include "cost.h"
 #include "fluid_layer.h"
 
 typedef struct choices {
@@ -24,12 +25,6 @@ typedef struct choices {
 gp_config fluid_config(const choices *c, double spacing);
 gp_material fluid_beads(const choices *c, double diameter);
 fluid_layer fluid_law(const gp_material *m);
-gp_state fluid_state(gp_sim *sim);
-gp_load fluid_load(gp_sim *sim, int32_t plate);
-/* A copy of a field, to be freed. */
-double *fluid_field(gp_sim *sim, uint32_t bit, int64_t count);
-/* Lines of time, particles, steps, CPU seconds. */
-void fluid_print_cost(gp_sim *sim);
 
 /* An annular Couette cell without gravity: torque and profile. */
 void fluid_annular(const choices *c);

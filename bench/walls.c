@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "options.h"
 
@@ -33,41 +32,6 @@ void walls_add_beads(gp_sim *sim, double diameter, int constant) {
     if (constant)
         material.mu_2 = material.mu_s;
     CHECK(gp_add_material(sim, &material, NULL));
-}
-
-gp_state walls_state(gp_sim *sim) {
-    gp_state state = {0};
-    state.struct_size = sizeof state;
-    CHECK(gp_get_state(sim, &state));
-    return state;
-}
-
-gp_load walls_load(gp_sim *sim, int32_t plate) {
-    gp_load load = {0};
-    load.struct_size = sizeof load;
-    CHECK(gp_get_plate_load(sim, plate, &load));
-    return load;
-}
-
-double *walls_doubles(int64_t count) {
-    double *values = malloc(sizeof *values * (size_t)count);
-    if (!values)
-        exit(1);
-    return values;
-}
-
-double *walls_field(gp_sim *sim, uint32_t bit, int64_t count) {
-    double *values = walls_doubles(count);
-    CHECK(gp_copy_field(sim, bit, values, count));
-    return values;
-}
-
-void walls_print_cost(gp_sim *sim) {
-    const gp_state s = walls_state(sim);
-    printf("time %.6g s\n", s.time);
-    printf("particles %lld 1\n", (long long)s.n_particles);
-    printf("steps %lld 1\n", (long long)s.step);
-    printf("cpu_seconds %.3f s\n", (double)clock() / CLOCKS_PER_SEC);
 }
 
 int main(int argc, char **argv) {

@@ -5,6 +5,7 @@
 #include <granperi/gp.h>
 
 #include "../examples/c/example.h" /* CHECK */
+#include "cost.h"
 
 #define DEGREE (3.14159265358979323846 / 180)
 #define GRAVITY 9.81   /* m/s2 */
@@ -35,19 +36,11 @@ enum { WALLS_CORNERS = 512, WALLS_MOST = 100000 }; /* of a line; particles of a 
 gp_config walls_config(const choices *c, double spacing);
 /* Material 1: glass beads of this diameter (m); mu_2 = mu_s if constant. Material 0 is the library's own. */
 void walls_add_beads(gp_sim *sim, double diameter, int constant);
-gp_state walls_state(gp_sim *sim);
-gp_load walls_load(gp_sim *sim, int32_t plate);
-/* Memory for so many numbers, to be freed. */
-double *walls_doubles(int64_t count);
 /* Corners of an arc about the origin, degrees; returns how many. Clockwise, the material is inside. */
 int walls_arc(double radius, double from, double to, int count, walls_point *points);
 /* Particles of material 1 on the lattice of the spacing where `inside` says so. */
 void walls_fill(gp_sim *sim, double spacing, walls_point low, walls_point high,
                 int (*inside)(double x, double y, const void *user), const void *user);
-/* A copy of a field, to be freed. */
-double *walls_field(gp_sim *sim, uint32_t bit, int64_t count);
-/* Lines of time, particles, steps, CPU seconds. */
-void walls_print_cost(gp_sim *sim);
 
 /* A layer thrown along its level floor: traction over friction times weight, way to the stop; friction mu_s at any rate. */
 void slide_coulomb(const choices *c);

@@ -54,15 +54,15 @@ void incline_column(const choices *c) {
     add_plate(sim, 0, 0, 0, 1, GP_WALL_FREE_SLIP, 0);
     for (t = interval; t < c->end + 0.5 * interval; t += interval) {
         CHECK(gp_run(sim, t));
-        state = walls_state(sim);
+        state = example_state(sim);
         if (state.at_rest)
             break;
     }
-    state = walls_state(sim);
-    x = walls_field(sim, GP_FIELD_X, state.n_particles);
-    y = walls_field(sim, GP_FIELD_Y, state.n_particles);
-    p = walls_field(sim, GP_FIELD_PRESSURE, state.n_particles);
-    columns = walls_field(sim, GP_FIELD_COLUMN, state.n_particles);
+    state = example_state(sim);
+    x = bench_field(sim, GP_FIELD_X, state.n_particles);
+    y = bench_field(sim, GP_FIELD_Y, state.n_particles);
+    p = bench_field(sim, GP_FIELD_PRESSURE, state.n_particles);
+    columns = bench_field(sim, GP_FIELD_COLUMN, state.n_particles);
     for (k = 0; k < state.n_particles; ++k) /* of what has come off in front of the deposit, and bears nothing */
         if (x[k] > state.x_right && p[k] == 0 && state.at_rest)
             clump = fmax(clump, ceil((y[k] - c->bed) / config.spacing - 0.25));
@@ -76,7 +76,7 @@ void incline_column(const choices *c) {
     printf("detached %.5g of the mass\n", state.detached);
     printf("clump %.3g rows, of what has come off and bears no pressure, at rest\n", clump);
     printf("at_rest %d 1\n", state.at_rest);
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     free(x);
     free(y);
     free(p);
@@ -97,10 +97,10 @@ void face(const choices *c) {
     add_column(sim, 0, width, height, 1);
     add_plate(sim, width + 0.4, 0, -0.4, 0, GP_WALL_NO_SLIP, 0);
     CHECK(gp_run(sim, c->end));
-    state = walls_state(sim);
+    state = example_state(sim);
     printf("peak %.5g of the height\n", state.peak_height / height);
     printf("at_rest %d 1\n", state.at_rest);
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }
 
@@ -111,9 +111,9 @@ typedef struct bottom_sums {
 } bottom_sums;
 
 static void add_bottom(bottom_sums *b, gp_sim *sim, double floor, double width, double beside) {
-    const int64_t count = walls_state(sim).n_particles;
-    double *x = walls_field(sim, GP_FIELD_X, count), *y = walls_field(sim, GP_FIELD_Y, count);
-    double *pressure = walls_field(sim, GP_FIELD_PRESSURE, count), *sxx = walls_field(sim, GP_FIELD_SXX, count);
+    const int64_t count = example_state(sim).n_particles;
+    double *x = bench_field(sim, GP_FIELD_X, count), *y = bench_field(sim, GP_FIELD_Y, count);
+    double *pressure = bench_field(sim, GP_FIELD_PRESSURE, count), *sxx = bench_field(sim, GP_FIELD_SXX, count);
     int64_t k;
     for (k = 0; k < count; ++k) {
         if (y[k] > floor + width)
@@ -150,13 +150,13 @@ void silo(const choices *c) {
     plates[2] = add_plate(sim, width, 2 * height, width, -below, GP_WALL_NO_SLIP, 0);
     CHECK(gp_run(sim, from));
     for (k = 0; k < 3; ++k)
-        before[k] = walls_load(sim, plates[k]);
+        before[k] = example_load(sim, plates[k]);
     for (k = 1; k <= SAMPLES; ++k) {
         CHECK(gp_run(sim, from + (c->end - from) * k / SAMPLES));
-        add_bottom(&bottom, sim, -sinking * walls_state(sim).time, width, 2 * config.spacing);
+        add_bottom(&bottom, sim, -sinking * example_state(sim).time, width, 2 * config.spacing);
     }
     for (k = 0; k < 3; ++k)
-        after[k] = walls_load(sim, plates[k]);
+        after[k] = example_load(sim, plates[k]);
     normal = after[2].impulse_x - before[2].impulse_x - (after[1].impulse_x - before[1].impulse_x);
     shear = after[1].impulse_y - before[1].impulse_y + after[2].impulse_y - before[2].impulse_y;
     printf("friction %.5g traction over normal force of the walls\n", fabs(shear / normal));
@@ -164,6 +164,6 @@ void silo(const choices *c) {
     printf("walls %.5g of the weight\n", fabs(shear) / (c->end - from) / weight);
     printf("ratio %.5g horizontal stress beside the walls over vertical stress, less than a width above the floor\n",
            bottom.horizontal / (double)bottom.beside / (bottom.vertical / (double)bottom.all));
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }

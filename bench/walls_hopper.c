@@ -81,7 +81,7 @@ void hopper(const choices *c) {
     CHECK(gp_add_column(sim, &column, NULL));
     for (k = 0; k < LOOKS; ++k) {
         CHECK(gp_run(sim, from + (c->end - from) * k / (LOOKS - 1)));
-        time[k] = walls_state(sim).time;
+        time[k] = example_state(sim).time;
         left[k] = left_of(sim, whole, spacing);
     }
     printf("rate %.5g rho sqrt(g) D^1.5\n", -slope(LOOKS, time, left) * whole / scale);
@@ -90,6 +90,6 @@ void hopper(const choices *c) {
         printf("rate_%d %.5g rho sqrt(g) D^1.5\n", k, -slope(n, time + first, left + first) * whole / scale);
         printf("left_%d %.5g of the filling\n", k, left[first + n / 2]);
     }
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }

@@ -44,7 +44,7 @@ static layer make_layer(const choices *c, double thickness, int across, double s
 }
 
 static double mean_speed(const layer *a) {
-    return walls_state(a->sim).momentum_x / a->mass;
+    return example_state(a->sim).momentum_x / a->mass;
 }
 
 /* The way of the layer's mean until the end, by the trapezoidal rule. */
@@ -69,9 +69,9 @@ void slide_coulomb(const choices *c) {
     gp_load before, after;
     double way;
     CHECK(gp_run(a.sim, 0.1 * stop));
-    before = walls_load(a.sim, a.floor);
+    before = example_load(a.sim, a.floor);
     CHECK(gp_run(a.sim, 0.4 * stop));
-    after = walls_load(a.sim, a.floor);
+    after = example_load(a.sim, a.floor);
     printf("traction %.5f of mu times the weight\n",
            (after.impulse_x - before.impulse_x) / (0.3 * stop) / (mu * a.mass * GRAVITY));
     gp_destroy(a.sim);
@@ -79,7 +79,7 @@ void slide_coulomb(const choices *c) {
     way = way_of(&a, speed, 1.1 * stop, 165);
     printf("way %.5g m\n", way);
     printf("exact %.5g m\n", exact);
-    walls_print_cost(a.sim);
+    bench_print_cost(a.sim);
     gp_destroy(a.sim);
 }
 
@@ -95,7 +95,7 @@ void slide_inertial(const choices *c) {
         before = plane_flow_mean(&exact);
     }
     printf("exact %.5g m\n", way);
-    walls_print_cost(a.sim);
+    bench_print_cost(a.sim);
     gp_destroy(a.sim);
 }
 
@@ -106,8 +106,8 @@ static int highest_first(const void *a, const void *b) {
 
 /* Mean over the uppermost row, or twentieth of the rows: of the velocity (m/s), and the depth below `thickness` (m). */
 static double surface_speed(gp_sim *sim, int rows, double thickness, double *depth) {
-    const int64_t count = walls_state(sim).n_particles, chosen = INCLINE_ACROSS * (rows < 40 ? 1 : rows / 20);
-    double *y = walls_field(sim, GP_FIELD_Y, count), *u = walls_field(sim, GP_FIELD_VX, count);
+    const int64_t count = example_state(sim).n_particles, chosen = INCLINE_ACROSS * (rows < 40 ? 1 : rows / 20);
+    double *y = bench_field(sim, GP_FIELD_Y, count), *u = bench_field(sim, GP_FIELD_VX, count);
     double *pairs = malloc(2 * sizeof *pairs * (size_t)count), speed = 0;
     int64_t k;
     if (!pairs)
@@ -143,12 +143,12 @@ void incline_start(const choices *c) {
         printf("surface_%d %.5g m/s\n", k, surface_speed(a.sim, (int)c->rows, thickness, &depth));
         printf("exact_%d %.5g m/s\n", k, plane_flow_surface(&exact));
     }
-    walls_print_cost(a.sim);
+    bench_print_cost(a.sim);
     gp_destroy(a.sim);
 }
 
 static double mean_height(gp_sim *sim) {
-    return walls_state(sim).centre_y;
+    return example_state(sim).centre_y;
 }
 
 void incline_shear(const choices *c) {
@@ -166,6 +166,6 @@ void incline_shear(const choices *c) {
         printf("surface_%d %.5g of Bagnold's at that height\n", k,
                speed / (bagnold * (1 - pow(fmax(0, depth / thickness), 1.5))));
     }
-    walls_print_cost(a.sim);
+    bench_print_cost(a.sim);
     gp_destroy(a.sim);
 }

@@ -29,7 +29,7 @@ static void add_pieces(gp_sim *sim, walls_point from, walls_point to, int count,
 
 void walls_fill(gp_sim *sim, double spacing, walls_point low, walls_point high,
                 int (*inside)(double x, double y, const void *user), const void *user) {
-    double *x = walls_doubles(WALLS_MOST), *y = walls_doubles(WALLS_MOST);
+    double *x = bench_doubles(WALLS_MOST), *y = bench_doubles(WALLS_MOST);
     int64_t n = 0;
     int i, j;
     for (j = 0; low.y + (j + 0.5) * spacing < high.y; ++j)
@@ -64,7 +64,7 @@ static double settle(gp_sim *sim, double end, double interval, double *fallen, d
     for (k = 1; k * interval < end + 0.5 * interval; ++k) {
         gp_state s;
         CHECK(gp_run(sim, k * interval));
-        s = walls_state(sim);
+        s = example_state(sim);
         if (!s.at_rest)
             rest = NAN;
         else if (isnan(rest))
@@ -96,10 +96,10 @@ void pieces(const choices *c) {
     plate_between(sim, &sides[0], &sides[1], GP_WALL_FREE_SLIP, NULL);
     plate_between(sim, &sides[2], &sides[3], GP_WALL_FREE_SLIP, NULL);
     rest = settle(sim, c->end, 0.01, &fallen, &taken);
-    n = walls_state(sim).n_particles;
-    x = walls_field(sim, GP_FIELD_X, n);
-    y = walls_field(sim, GP_FIELD_Y, n);
-    p = walls_field(sim, GP_FIELD_PRESSURE, n);
+    n = example_state(sim).n_particles;
+    x = bench_field(sim, GP_FIELD_X, n);
+    y = bench_field(sim, GP_FIELD_Y, n);
+    p = bench_field(sim, GP_FIELD_PRESSURE, n);
     for (k = 0; k < n; ++k)
         if (y[k] < spacing && x[k] > 2 * spacing && x[k] < width - 2 * spacing) {
             const double ratio = p[k] / (DENSITY * GRAVITY * (height - y[k]));
@@ -109,7 +109,7 @@ void pieces(const choices *c) {
     printf("pressure_least %.6f of the hydrostatic one, lowest row\n", low);
     printf("pressure_most %.6f of the hydrostatic one, lowest row\n", high);
     printf("rest %.4g s\n", rest);
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     free(x);
     free(y);
     free(p);
@@ -117,7 +117,7 @@ void pieces(const choices *c) {
 }
 
 static double mean_way(gp_sim *sim, int64_t n, double c, double s) {
-    double *x = walls_field(sim, GP_FIELD_X, n), *y = walls_field(sim, GP_FIELD_Y, n), sum = 0;
+    double *x = bench_field(sim, GP_FIELD_X, n), *y = bench_field(sim, GP_FIELD_Y, n), sum = 0;
     int64_t k;
     for (k = 0; k < n; ++k)
         sum += (x[k] * c - y[k] * s) / (double)n;
@@ -150,7 +150,7 @@ void pieces_slope(const choices *c) {
     before = mean_way(sim, COUNT, cosine, sine);
     CHECK(gp_run(sim, c->end));
     printf("way %.6g m\n", mean_way(sim, COUNT, cosine, sine) - before);
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }
 
@@ -187,10 +187,10 @@ void bowl(const choices *c) {
     for (k = 0; k + 1 < line.count; ++k)
         plate_between(sim, &line.points[k], &line.points[k + 1], GP_WALL_NO_SLIP, NULL);
     rest = settle(sim, c->end, 0.01, &fallen, &taken);
-    weight = (double)walls_state(sim).n_particles * spacing * spacing * DENSITY * GRAVITY;
+    weight = (double)example_state(sim).n_particles * spacing * spacing * DENSITY * GRAVITY;
     printf("rest %.4g s\n", rest);
     printf("fallen %.4g of the highest wall_dissipated\n", fallen / taken);
     printf("fallen_energy %.4g of weight times radius\n", fallen / (weight * radius));
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }

@@ -49,7 +49,7 @@ static gp_sim *create(const choices *c, double spacing, double width, double hei
 
 /* Largest way along a layer that is periodic, spacings. */
 static double moved(gp_sim *sim, const double *begin, int64_t n, double period, double spacing) {
-    double *x = walls_field(sim, GP_FIELD_X, n), most = 0;
+    double *x = bench_field(sim, GP_FIELD_X, n), most = 0;
     int64_t k;
     for (k = 0; k < n; ++k) {
         const double way = x[k] - begin[k];
@@ -64,8 +64,8 @@ void tilt_layer(const choices *c) {
     const double thickness = 0.04, spacing = thickness / c->rows, period = ACROSS * spacing;
     tilting t = {0};
     gp_sim *sim = create(c, spacing, period, thickness, period, &t);
-    const int64_t n = walls_state(sim).n_particles;
-    double *begin = walls_field(sim, GP_FIELD_X, n), held = NAN, flow = NAN, way = 0;
+    const int64_t n = example_state(sim).n_particles;
+    double *begin = bench_field(sim, GP_FIELD_X, n), held = NAN, flow = NAN, way = 0;
     gp_state s;
     int k;
     add_plate(sim, period, 0, 0, 0);
@@ -75,15 +75,15 @@ void tilt_layer(const choices *c) {
         way = moved(sim, begin, n, period, spacing);
         if (k == 205)
             held = way;
-        if (isnan(flow) && walls_state(sim).max_speed > 1e-3)
+        if (isnan(flow) && example_state(sim).max_speed > 1e-3)
             flow = angle;
     }
-    s = walls_state(sim);
+    s = example_state(sim);
     printf("held %.4g dl, largest way by 20.5 degrees\n", held);
     printf("way %.4g dl, by 22 degrees\n", way);
     printf("flow %.4g degrees, from where on something is faster than 1 mm/s\n", flow);
     printf("error %.3g of what is dissipated, of the ledger\n", fabs(s.energy_error) / s.dissipated);
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     free(begin);
     gp_destroy(sim);
 }
@@ -99,17 +99,17 @@ void tilt_box(const choices *c) {
     add_plate(sim, 0, 0, 0, 5 * height);
     add_plate(sim, length, 5 * height, length, 0);
     CHECK(gp_run(sim, 20 - t.from));
-    before = walls_state(sim).x_q50;
+    before = example_state(sim).x_q50;
     CHECK(gp_run(sim, 20.5 - t.from));
-    held = walls_state(sim).x_q50;
+    held = example_state(sim).x_q50;
     CHECK(gp_run(sim, 26 - t.from));
-    s = walls_state(sim);
+    s = example_state(sim);
     stations[0] = 0.15 * length;
     stations[1] = 0.85 * length;
     CHECK(gp_get_surface(sim, 2, stations, heights));
     printf("held %.4g dl, of the middle from 20 to 20.5 degrees\n", fabs(held - before) / spacing);
     printf("surface %.4g degrees to gravity at 26\n", 26 - atan((heights[1] - heights[0]) / (0.7 * length)) / DEGREE);
     printf("error %.3g of what is dissipated, of the ledger\n", fabs(s.energy_error) / s.dissipated);
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }

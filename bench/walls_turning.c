@@ -45,8 +45,8 @@ static int inside_drum(double x, double y, const void *user) {
 }
 
 static int64_t escaped(gp_sim *sim, drum_shape shape, double angle) {
-    const int64_t n = walls_state(sim).n_particles;
-    double *x = walls_field(sim, GP_FIELD_X, n), *y = walls_field(sim, GP_FIELD_Y, n);
+    const int64_t n = example_state(sim).n_particles;
+    double *x = bench_field(sim, GP_FIELD_X, n), *y = bench_field(sim, GP_FIELD_Y, n);
     int64_t k, found = 0;
     shape.angle = angle;
     for (k = 0; k < n; ++k)
@@ -98,22 +98,22 @@ void drum(const choices *c) {
     walls_fill(sim, spacing, low, high, inside_drum, &start);
     id = add_ring(sim, points, walls_arc(radius, 0, -360, segments, points), omega);
     CHECK(gp_run(sim, from * turn));
-    before = walls_state(sim);
-    first = walls_load(sim, id);
+    before = example_state(sim);
+    first = example_load(sim, id);
     for (k = 1; k <= looks; ++k) {
         double slope;
         int64_t out;
         CHECK(gp_run(sim, (from + (double)k / LOOKS_PER_TURN) * turn));
         slope = slope_of(sim, radius);
-        out = escaped(sim, shape, walls_load(sim, id).angle);
+        out = escaped(sim, shape, example_load(sim, id).angle);
         lost = out > lost ? out : lost;
         least = fmin(least, slope);
         most = fmax(most, slope);
         mean += slope / looks;
         half[k > looks / 2] += slope / (k > looks / 2 ? looks - looks / 2 : looks / 2);
     }
-    after = walls_state(sim);
-    last = walls_load(sim, id);
+    after = example_state(sim);
+    last = example_load(sim, id);
     printf("turns %.5g 1\n", last.angle / (2 * pi));
     printf("outside %lld particles, at most\n", (long long)lost);
     printf("slope %.4g degrees\n", mean);
@@ -124,7 +124,7 @@ void drum(const choices *c) {
     printf("work %.5g of what is dissipated and stored\n",
            -omega * (last.impulse_torque - first.impulse_torque) /
                (after.dissipated - before.dissipated + stored(&after) - stored(&before)));
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }
 
@@ -215,17 +215,17 @@ void annular(const choices *c) {
     add_outer_plates(sim, PLATES);
     add_rings(sim, 1, inner, apothem, rows, spacing);
     CHECK(gp_run(sim, 0.5 * c->end));
-    before = walls_load(sim, ring).impulse_torque;
+    before = example_load(sim, ring).impulse_torque;
     for (k = 1; k <= SAMPLES; ++k) {
         int64_t n, i;
         double *x, *y, *u, *v, *p;
         CHECK(gp_run(sim, 0.5 * c->end * (1 + (double)k / SAMPLES)));
-        n = walls_state(sim).n_particles;
-        x = walls_field(sim, GP_FIELD_X, n);
-        y = walls_field(sim, GP_FIELD_Y, n);
-        u = walls_field(sim, GP_FIELD_VX, n);
-        v = walls_field(sim, GP_FIELD_VY, n);
-        p = walls_field(sim, GP_FIELD_PRESSURE, n);
+        n = example_state(sim).n_particles;
+        x = bench_field(sim, GP_FIELD_X, n);
+        y = bench_field(sim, GP_FIELD_Y, n);
+        u = bench_field(sim, GP_FIELD_VX, n);
+        v = bench_field(sim, GP_FIELD_VY, n);
+        p = bench_field(sim, GP_FIELD_PRESSURE, n);
         for (i = 0; i < n; ++i) {
             const double r = hypot(x[i], y[i]);
             const int row = (int)fmin(fmax(0, (r - inner) / spacing), BINS - 1);
@@ -245,7 +245,7 @@ void annular(const choices *c) {
     /* The outer ring decides only the pressure of the outermost rows: the law at the pressure that is where it flows. */
     pressure /= in_zone;
     right = law_moment(pressure);
-    moment = -(walls_load(sim, ring).impulse_torque - before) / (0.5 * c->end);
+    moment = -(example_load(sim, ring).impulse_torque - before) / (0.5 * c->end);
     for (k = 0; k < rows; ++k) {
         speed[k] /= fmax(1, count[k]) * turning * inner;
         exact[k] = law_velocity(right, pressure, inner + (k + 0.5) * spacing) / (turning * inner);
@@ -260,6 +260,6 @@ void annular(const choices *c) {
     printf("yield_radius %.5g m, by the torque\n", yield_radius(moment, pressure));
     printf("yield_radius_exact %.5g m\n", yield_radius(right, pressure));
     printf("profile %.4f of the ring's speed, the largest error\n", off);
-    walls_print_cost(sim);
+    bench_print_cost(sim);
     gp_destroy(sim);
 }

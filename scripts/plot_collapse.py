@@ -172,7 +172,7 @@ def table(frames, summary):
     peak = frames.state("peak_height", frames.at(PEAK_TIME)) / frames.width
     rows = [("peak y/L at 0.42 s", f"{peak:.3f}",
              f"experiment {EXPERIMENT_PEAK} ({100 * (peak / EXPERIMENT_PEAK - 1):+.1f} %; Xu et al. 2017 in Jin et al. 2021)"),
-            ("", "", "MPM, VOF and DEM codes with instant release 0.41-0.43")]
+            ("", "", "MPM and VOF codes with instant release 0.41-0.42")]
     if not summary:
         return rows
     rows += [

@@ -174,7 +174,6 @@ gp_status gp_set_plate_motion(gp_sim *sim, int32_t plate, double vx, double vy, 
 
 gp_status gp_set_gravity(gp_sim *sim, double gx, double gy) {
     return guard_together(sim, [&] {
-        require_simulation(sim);
         sim->sim.set_gravity(gx, gy);
         return GP_OK;
     });
@@ -208,7 +207,6 @@ gp_status gp_set_log(gp_sim *sim, gp_log log, void *user) {
 
 gp_status gp_save(gp_sim *sim, const char *path) {
     return guard_together(sim, [&]() -> gp_status {
-        require_simulation(sim);
         require_pointer("path", path);
         Sim &s = sim->sim;
         const bool started = s.progress().started;
@@ -256,7 +254,6 @@ gp_status gp_output_open(gp_sim *sim, const char *path, const gp_output *output)
 
 gp_status gp_output_write(gp_sim *sim) {
     return guard_together(sim, [&] {
-        require_simulation(sim);
         if (!sim->sim.sink)
             throw make_error(GP_E_STATE, "gp_output_write: no output is open");
         sim->output->write(readable(sim).world());

@@ -43,7 +43,7 @@ public:
     };
     struct Chain {
         int32_t number;     // of the first of its facets: the same for all images of a chain
-        int32_t begin, end; // in members()
+        int32_t begin, end; // in members_
         int32_t repeats;    // members after which it begins anew: all of a ring, those of one period, else 0
     };
     // The facets of the chain before end 0 and after end 1 of a facet; -1: none.

@@ -57,8 +57,8 @@ private:
     std::fenv_t all_;
 };
 
-// While it lives, this thread computes in the usual environment. One per thread of a parallel region, too: OpenMP's threads
-// may be the host's, with what it has set there.
+// While it lives, this thread computes in the usual environment. One per thread that shares the work, too: a new thread has
+// what the one that made it had set.
 class UsualFloats {
 public:
     UsualFloats() {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "parallel.hpp"
+#include "inline.hpp"
 
 namespace gp {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "parallel.hpp"
+#include "inline.hpp"
 
 namespace gp {
 

@@ -1,4 +1,4 @@
-// The peridynamic operators on one particle's neighbours: shape tensor, velocity gradient, force.
+// What the peridynamic operators sum over one particle's neighbours, and the shape tensor's inverse.
 //
 // The gradient L_i = sum_j w (u_j - u_i) (x) r_ij K_i^-1 and the force density f_i = sum_j w (A_i + A_j) r_ij with
 // A = sigma K^-1 are adjoint: sum_i u_i . f_i = -sum_i sigma_i : L_i to rounding, for any K^-1 (power identity).

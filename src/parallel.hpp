@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#define GP_INLINE inline __attribute__((always_inline))
-
 namespace gp {
 
 constexpr int64_t block_size = 64;

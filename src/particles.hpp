@@ -71,7 +71,7 @@ struct Particles {
     Field<double> sxx, sxy; // Pa, deviatoric stress
     // Pa, over Constants::pressure_memory: the inertial number goes by it; only where friction goes by that (stages/stress.cpp)
     Field<double> mean_pressure;
-    Field<double> syy;      // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
+    Field<double> syy; // only of the viscous stress eta_r D, which has a trace; else syy = -sxx
 
     Repose repose;
 
@@ -106,14 +106,14 @@ struct Particles {
 
     // Fields that only some scenes need.
     struct Optional {
-        bool stressed;     // penalty, but in the default scheme
-        bool fluidity;     // a material has one
-        bool bearing_flow; // density diffusion of one density beside fluidity
-        bool densities;    // density diffusion between materials of different density
-        bool shape;        // inverse shape tensor and the second row of sigma K^-1
-        bool mean_pressure; // friction goes by the inertial number
-        bool syy;
-        bool sleep;
+        bool stressed = false;      // penalty, but in the default scheme
+        bool fluidity = false;      // a material has one
+        bool bearing_flow = false;  // density diffusion of one density beside fluidity
+        bool densities = false;     // density diffusion between materials of different density
+        bool shape = false;         // inverse shape tensor and the second row of sigma K^-1
+        bool mean_pressure = false; // friction goes by the inertial number
+        bool syy = false;
+        bool sleep = false;
     };
     // Gives every field in use its size.
     void allocate(int64_t n, const Optional &use);

@@ -17,7 +17,7 @@
 
 namespace gp {
 
-// The schemes that there are: stage lists over the same fields (plan.cpp, plan_paper.cpp).
+// The schemes that there are: stage lists over the same fields (plan.cpp, plan_implicit.cpp, plan_paper.cpp).
 enum class Scheme {
     adjoint,    // the default: continuity, return map, adjoint operators
     implicit,   // the same with the regularised law in place of the return map, solved implicitly

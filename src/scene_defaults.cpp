@@ -53,7 +53,6 @@ gp_material default_material() {
     material.mu_2 = std::tan(32 * degree);
     material.i0 = 0.3;
     material.fluidity_time = 1e-4;
-    material.k0 = 0;
     return material;
 }
 

@@ -24,7 +24,6 @@ struct LaneRows {
         const int32_t *next = nullptr, *end = nullptr;
     };
 
-    int64_t count() const { return static_cast<int64_t>(start.size()) - 1; }
     int64_t bytes() const {
         return static_cast<int64_t>((start.capacity() + index.capacity()) * sizeof(int32_t) + seen_by.capacity());
     }

@@ -10,7 +10,8 @@
 namespace gp {
 
 int64_t Walls::bytes() const {
-    int64_t total = particles_of_ghost.bytes() + lanes.bytes() + chains_.bytes() + cells_.bytes();
+    int64_t total =
+        particles_of_ghost.bytes() + lanes.bytes() + chains_.bytes() + cells_.bytes() + barriers_.cells.bytes();
     for (const Field<double> *field :
          {&ghost_along, &ghost_depth, &ghost_nx, &ghost_ny, &ghost_lean, &ghost_distance, &ghost_shift, &ghost_x,
           &ghost_y, &ghost_vx, &ghost_vy, &ghost_axx, &ghost_axy, &ghost_ayy})
@@ -18,9 +19,10 @@ int64_t Walls::bytes() const {
     for (const Field<int32_t> *field : {&ghost_facet, &ghost_chain, &wall_particle, &ghost_of_contact, &contact_start,
                                         &passed_, &about_, &passed_of_contact_})
         total += static_cast<int64_t>(field->capacity() * sizeof(int32_t));
-    return total +
-           static_cast<int64_t>(contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
-                                places_.capacity() * sizeof(WallPlace) + images_.capacity() * sizeof(FacetImage));
+    return total + static_cast<int64_t>(
+                       contacts.capacity() * sizeof(Contact) + candidates_.capacity() * sizeof(Candidate) +
+                       places_.capacity() * sizeof(WallPlace) + images_.capacity() * sizeof(FacetImage) +
+                       barriers_.segments.capacity() * sizeof(Segment) + has_behind_.capacity() * sizeof(double));
 }
 
 void Walls::make_facets(const Scene &scene) {
@@ -344,8 +346,7 @@ void Walls::face_facets(const Particles &particles) {
     if (!chains_.any())
         return;
     for (Contact &contact : contacts)
-        contact.facet =
-            facing(contact.listed_facet, Vector(particles.x[contact.particle], particles.y[contact.particle]));
+        contact.facet = facet_before(contact, Vector(particles.x[contact.particle], particles.y[contact.particle]));
 }
 
 int64_t Walls::contact_of(int64_t i, int64_t ghost) const {

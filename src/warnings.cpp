@@ -253,7 +253,7 @@ std::vector<std::string> Warnings::of_scene(const World &world) {
         texts.push_back("sound_speed: nothing in the scene sets a speed, so 1 m/s is used");
     if (c.sound_speed < c.flow_speed)
         texts.push_back(format_text("gp_config.sound_speed = %g m/s: the scene can reach %g m/s; set 0 or about %g",
-                                    c.sound_speed, c.flow_speed, 10 * c.flow_speed));
+                                    c.sound_speed, c.flow_speed, sound_to_flow_speed * c.flow_speed));
     for (std::size_t k = 0; k < world.scene->bodies().size(); ++k) {
         const Body &body = world.scene->bodies()[k];
         const double thinnest = std::min(body.width, body.height);
@@ -317,7 +317,8 @@ std::vector<std::string> Warnings::of_gravity(const World &world) {
     return {format_text(
         "gp_set_gravity = (%g, %g) m/s2: the scene can now reach %g m/s, for which the sound speed of %g m/s "
         "is too low (compression of some %.2g %%): set gp_config.sound_speed to about %g",
-        c.gravity.x(), c.gravity.y(), c.flow_speed, c.sound_speed, 100 * compression, 10 * c.flow_speed)};
+        c.gravity.x(), c.gravity.y(), c.flow_speed, c.sound_speed, 100 * compression,
+        sound_to_flow_speed * c.flow_speed)};
 }
 
 std::vector<std::string> Warnings::of_step(const World &world) {

@@ -31,9 +31,16 @@ std::unique_ptr<World> make_bare_world(const Scene &scene, const Constants &cons
     Particles &p = world->particles;
     p.volume = c.volume;
     const bool exchanged = scene.config().density_diffusion > 0;
-    p.allocate(count, {c.penalty > 0 && c.scheme != Scheme::adjoint, c.fluid, exchanged && c.fluid && c.one_density(),
-                       exchanged && !c.one_density(), c.scheme != Scheme::paper_local, c.rate_dependent,
-                       by_number_density(c.scheme), scene.config().sleep == 1});
+    Particles::Optional use;
+    use.stressed = c.penalty > 0 && c.scheme != Scheme::adjoint;
+    use.fluidity = c.fluid;
+    use.bearing_flow = exchanged && c.fluid && c.one_density();
+    use.densities = exchanged && !c.one_density();
+    use.shape = c.scheme != Scheme::paper_local;
+    use.mean_pressure = c.rate_dependent;
+    use.syy = by_number_density(c.scheme);
+    use.sleep = scene.config().sleep == 1;
+    p.allocate(count, use);
     world->sleep.in_use = scene.config().sleep == 1;
     const int64_t blocks = block_count(count);
     world->sums.resize(blocks);

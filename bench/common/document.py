@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import Callable, Iterable
 
@@ -11,8 +12,9 @@ from run import ROOT, Run
 
 
 def figure(prefix: str, name: str, drawn: set[str], caption: str) -> str:
-    """Nothing if it was not drawn."""
-    return f"![{caption}](images/{prefix}_{name}.png)\n\n*{caption}*" if name in drawn else ""
+    """Nothing if it was not drawn. The caption's first sentence stands for the picture where it cannot be seen."""
+    short = re.split(r"(?<=[^.]{8})[.;:] ", caption, maxsplit=1)[0]
+    return f"![{short}](images/{prefix}_{name}.png)\n\n*{caption}*" if name in drawn else ""
 
 
 def footer(collection: Collection, report: str, script: str, said: str) -> str:

@@ -3,7 +3,7 @@
 
     /usr/bin/python3 bench/performance/aims.py            # writes it into the guide, docs/settings.md and granperi.settings
     /usr/bin/python3 bench/performance/aims.py --check    # 1 if one of them says something else
-    PYTHONPATH=build/python /usr/bin/python3 bench/performance/aims.py --measure    # some 70 CPU s: errors and CPU times anew
+    PYTHONPATH=build/python /usr/bin/python3 bench/performance/aims.py --measure    # some 5 CPU minutes: errors and CPU times anew
     /usr/bin/python3 bench/performance/aims.py --figure   # docs/images/performance_collapse.png
 
 In aims.json "rows" are the runs (aims_rows.py), "levels" the settings and what the rows say of them ("cpu_seconds_awake": with
@@ -15,6 +15,7 @@ Between two marks such as <!-- aims --> and <!-- /aims -->, in Python # aims and
 from __future__ import annotations
 
 import argparse
+import datetime
 import json
 import re
 import sys
@@ -25,6 +26,8 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 
 import aims_rows  # noqa: E402
+from batch import commit_of  # noqa: E402
+from computer import processor  # noqa: E402
 from converged import converged  # noqa: E402
 from headlines import headline  # noqa: E402
 
@@ -37,7 +40,7 @@ def percent(share: float, digits: int = 1) -> str:
     return f"{100 * share:.{digits}f} %"
 
 
-def markdown(levels: Levels, rows: list[aims_rows.Row]) -> str:
+def markdown(levels: Levels) -> str:
     lines = ["| aim | spacing | horizon | `sleep` | peak | run-out | CPU s | with `sleep` 0 |", "|---|---|---:|---:|---:|---:|---:|---:|"]
     lines += [f"| {name}: below {percent(of['aim'], 0)} | smaller side / {of['spacings']} | {of['horizon']} | {of['sleep']} | "
               f"{percent(of['peak_error'])} ({percent(of['peak_error_a125'])}) | "
@@ -46,9 +49,9 @@ def markdown(levels: Levels, rows: list[aims_rows.Row]) -> str:
     return "\n".join(lines)
 
 
-def marked(levels: Levels, rows: list[aims_rows.Row]) -> str:
+def marked(levels: Levels) -> str:
     """For the page that the others take these numbers from."""
-    text = markdown(levels, rows)
+    text = markdown(levels)
     for name in ("standard", "fine"):
         seconds = f"{levels[name]['cpu_seconds']:.2f}"
         told = headline(f"settings.{name}.cpu", seconds)
@@ -56,18 +59,25 @@ def marked(levels: Levels, rows: list[aims_rows.Row]) -> str:
     return text
 
 
-def python(levels: Levels, rows: list[aims_rows.Row]) -> str:
+def python(levels: Levels) -> str:
     lines = ["_LEVELS = {"]
-    lines += [f'    "{name}": _Level({of["spacings"]}, {of["horizon"]:.1f}, {of["sleep"]}, {of["aim"]:.2f}, {of["peak_error"]:.3f}, '
-              f'{of["runout_error"]:.3f}, {of["cpu_seconds"]:.2f}),' for name, of in levels.items()]
+    lines += [f'    "{name}": _Level({of["spacings"]}, {of["horizon"]:.1f}, {of["sleep"]}, {of["aim"]:.2f}, {of["peak_error"]:.4f}, '
+              f'{of["runout_error"]:.4f}, {of["cpu_seconds"]:.2f}),' for name, of in levels.items()]
     return "\n".join([*lines, "}"])
 
 
-PLACES = [("docs/settings.md", "<!-- aims -->", "<!-- /aims -->", marked),
-          ("docs/settings.md", "<!-- rows -->", "<!-- /rows -->", aims_rows.table),
-          ("docs/settings.md", "<!-- runs -->", "<!-- /runs -->", aims_rows.single_runs),
-          ("docs/guide/resolution.md", "<!-- aims -->", "<!-- /aims -->", markdown),
-          ("bindings/python/granperi/_settings.py", "# aims: written by bench/performance/aims.py", "# /aims", python)]
+PLACES = [("docs/settings.md", "<!-- aims -->", "<!-- /aims -->", lambda data: marked(data["levels"])),
+          ("docs/settings.md", "<!-- rows -->", "<!-- /rows -->", lambda data: aims_rows.table(data["levels"], data["rows"])),
+          ("docs/settings.md", "<!-- runs -->", "<!-- /runs -->", lambda data: aims_rows.single_runs(data["levels"], data["rows"])),
+          ("docs/settings.md", "<!-- made -->", "<!-- /made -->", lambda data: made(data["made"], data["rows"])),
+          ("docs/guide/resolution.md", "<!-- aims -->", "<!-- /aims -->", lambda data: markdown(data["levels"])),
+          ("bindings/python/granperi/_settings.py", "# aims: written by bench/performance/aims.py", "# /aims",
+           lambda data: python(data["levels"]))]
+
+
+def made(of: dict[str, str], rows: list[aims_rows.Row]) -> str:
+    runs = sum(row["runs"] for row in rows)
+    return f"{runs} runs, commit {of['commit']}, {of['machine']}, nothing else running, {of['date']}."
 
 
 def replaced(text: str, begin: str, end: str, content: str) -> str:
@@ -144,6 +154,7 @@ def main() -> int:
     data = json.loads(DATA.read_text())
     if options.measure:
         data["rows"] = aims_rows.measure()
+        data["made"] = {"commit": commit_of(ROOT), "machine": processor(), "date": datetime.date.today().isoformat()}
         aims_rows.summed_up(data["levels"], data["rows"])
         for name, of in data["levels"].items():
             if max(of["peak_error_a125"], of["runout_error_a125"]) > of["aim"]:
@@ -156,7 +167,7 @@ def main() -> int:
     for place, begin, end, write in PLACES:
         path = ROOT / place
         text = path.read_text()
-        new = replaced(text, begin, end, write(data["levels"], data["rows"]))
+        new = replaced(text, begin, end, write(data))
         if new != text:
             differs = 1
             print(f"{place}: {'differs' if options.check else 'written'}")

@@ -5,7 +5,7 @@ from run import Program, Run
 
 PROGRAM = Program(
     "bench/fluidity",
-    ("bench/fluid*.[ch]", "bench/rings.[ch]", "bench/marks.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
+    ("bench/fluid*.[ch]", "bench/cost.[ch]", "bench/rings.[ch]", "bench/marks.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
 )
 
 SPEED, SLOW_SPEED = 0.003, 0.0003  # m/s, of the lid; the slow one is that of Jin et al. (2021)

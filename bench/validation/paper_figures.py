@@ -221,7 +221,7 @@ def resolution(path: Path, results: Collection) -> bool:
         label="paper, printed",
     )
     left.axhline(ref.EXPERIMENT_PEAK, color="black", lw=1.2, label="experiment")
-    left.axhspan(*ref.CODES_PEAK_BAND, color="0.88", zorder=0, label="independent codes, factor 1")
+    left.axhspan(*ref.CODES_PEAK_BAND, color="0.88", zorder=0, label="MPM and VOF codes, factor 1")
     left.set_ylabel("peak y/L at 0.42 s")
     right.set_ylabel("run-out of 90 % of the mass at 0.42 s")
     for axes in (left, right):

@@ -117,7 +117,8 @@ INDEPENDENT_CODES = [
     ("Matter, friction doubled", "MPM, return map", 32, None, 0.545, 0.545, 0.96, False),
 ]
 CODES_RUN_OUT = (1.9, 2.5)  # of the same
-CODES_PEAK_BAND = (0.409, 0.427)  # of those with the friction as given
+CODES_PEAK_BAND = (0.409, 0.424)  # of the MPM and VOF codes with the friction as given
+DISCS_PEAK = 0.427  # of the DEM code
 
 # -------------------------------------------------------------------------------------------------------- Couette
 COUETTE_SOURCE = (

@@ -13,7 +13,7 @@ from results import Collection
 
 
 def rows(results: Collection) -> list[tuple[str, str, str]]:
-    found = [*_both_side(results), *_paper(results), *_others(results), *_fluidity(results)]
+    found = [*_both_side(results), *_paper(results), *_others(results), *_inclines(results), *_fluidity(results)]
     minutes = sum(result.cpu for result in results.found.values()) / 60
     return [(f"validation.{name}", what, text) for name, what, text in found] + [
         ("validation.cpu_minutes", "CPU minutes of all runs", fixed(minutes, 0))
@@ -63,13 +63,30 @@ def _others(results: Collection) -> list[tuple[str, str, str]]:
     ]
     least, most = (f"{signed(one, 0)} %" for one in (min(run_outs), max(run_outs))) if run_outs else (NONE, NONE)
     return [
-        ("codes.peak_least", "other codes, instant release: lowest peak y/L", fixed(low)),
+        ("codes.peak_least", "MPM and VOF codes, instant release: lowest peak y/L", fixed(low)),
         ("codes.peak_most", "highest", fixed(high)),
+        ("codes.peak_discs", "discs", fixed(ref.DISCS_PEAK)),
         ("discs.front_02", "front (0.02 H0) beside contact dynamics: off by up to", fronts["front_02"]),
         ("discs.front_05", "front (0.05 H0)", fronts["front_05"]),
         ("scaling.run_out_least", "run-out against Lagrée et al. (2011), of all aspect ratios: least", least),
         ("scaling.run_out_most", "most", most),
     ]
+
+
+def _inclines(results: Collection) -> list[tuple[str, str, str]]:
+    found = []
+    for name, rows, case in (
+        ("fast_narrow", 20, "28°, c0 = 10 u, 12 dl wide"),
+        ("fast_10", 10, "28°, c0 = 10 u"),
+        ("fast_20", 20, "28°, c0 = 10 u"),
+        ("fast_40", 40, "28°, c0 = 10 u"),
+        ("slow", 20, "23°, c0 = 25 u"),
+        ("slow_stiff", 20, "23°, c0 = 50 u"),
+    ):
+        result = results(runs.exact(f"Bagnold, {case}", rows))
+        error = f"{100 * abs(result.summary['error']):.1f} %" if result else NONE
+        found.append((f"incline.{name}", f"Bagnold flow, {case}, {rows} rows: error of the surface's speed", error))
+    return found
 
 
 def _fluidity(results: Collection) -> list[tuple[str, str, str]]:

@@ -173,8 +173,8 @@ the outermost point at which the surface is above 0.02 or 0.05 H0. Single discs 
 
 ## Independent codes
 
-The column of a = 1.25, gates gone at once, with public codes at the same μ(I). They agree with each other on a peak of
-{ref.CODES_PEAK_BAND[0]:.3f} to {ref.CODES_PEAK_BAND[1]:.3f}.
+The column of a = 1.25, gates gone at once, with public codes: MPM and VOF at the same μ(I), which agree with each other on a peak of
+{ref.CODES_PEAK_BAND[0]:.3f} to {ref.CODES_PEAK_BAND[1]:.3f}, and discs, {ref.DISCS_PEAK:.3f}.
 
 {physics.codes(collection)}
 

@@ -62,7 +62,10 @@ def factor_two(results: Collection) -> str:
         lines.append("On refinement, as printed: " + ", ".join(finer_text) + ".")
     low, high = ref.CODES_PEAK_BAND
     default = results(runs.code_run(32))
-    codes = f"Independent codes with the friction as given find {low:.3f} to {high:.3f}, and 0.545 with it doubled."
+    codes = (
+        f"MPM and VOF codes with the friction as given find {low:.3f} to {high:.3f}, discs {ref.DISCS_PEAK:.3f}; an MPM code with it "
+        "doubled 0.545."
+    )
     if default:
         value = peak(default)
         inside = low - 0.01 <= value <= high + 0.01
@@ -349,7 +352,7 @@ def in_short(results: Collection) -> str:
         instant = results(runs.code_run(32))
         if instant:
             low, high = ref.CODES_PEAK_BAND
-            text += f"; released at once {fixed(peak(instant))}, where independent codes with the same law find {low:.3f} to {high:.3f}"
+            text += f"; released at once {fixed(peak(instant))}, where MPM and VOF codes with the same law find {low:.3f} to {high:.3f}"
         text += f". The experiment, between side walls, has {ref.EXPERIMENT_PEAK} ({percent(peak(default), ref.EXPERIMENT_PEAK)})"
         if walls:
             text += (

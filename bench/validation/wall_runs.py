@@ -5,7 +5,7 @@ from run import Program, Run
 
 PROGRAM = Program(
     "bench/walls",
-    ("bench/walls*.[ch]", "bench/rings.[ch]", "bench/plane_flow.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
+    ("bench/walls*.[ch]", "bench/cost.[ch]", "bench/rings.[ch]", "bench/plane_flow.[ch]", "bench/options.[ch]", "examples/c/example.[ch]"),
 )
 
 COULOMB_ROWS = (1, 2, 3, 4, 6, 10, 20)

@@ -117,7 +117,7 @@ enum {
     GP_STRESS_REGULARIZED = 1, /* tau = eta_r D of [1] 3.6, explicit: no yield, creep at rest */
     GP_STRESS_IMPLICIT = 2     /* tau = eta_r dev D, solved for the velocity at the end of the step: no yield either, but
                                   a creep in proportion to delta and no limit on the time step. The check on the first:
-                                  10 (delta = 1e-2) to 100 times (1e-6) its work */
+                                  14 (delta = 1e-2) to 86 times (1e-6) its work in docs/stability.md */
 };
 
 /* How the density is found. */
@@ -188,7 +188,7 @@ typedef struct gp_config {
                                     is refused [0] */
     int32_t retry_halvings;      /* a step that diverges is taken anew from where it began in two halves, these in halves
                                     again and so on, up to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0] */
-    int64_t sleep;               /* 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in
+    int64_t sleep;               /* 1: what rests is left out of the work (gp_step, "Sleep"); 0: all material is computed in
                                     every step. Only with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0] */
 } gp_config;
 
@@ -475,7 +475,8 @@ typedef struct gp_particles {
                                        GP_STRESS_REGULARIZED eta_r D, whose trace is not 0 */
     const double *shear_rate;       /* 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3) */
     const double *inertial_number;  /* I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where
-                                       p = 0. Friction goes by a mean of the pressure over 100 dl / c0 (default scheme) */
+                                       p = 0. In the default scheme the material's friction goes by a mean of the
+                                       pressure over 100 dl / c0, not that of plates, nor with nonlocal_amplitude */
     const double *viscosity;        /* Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6) */
     const double *number_density;   /* N = sum of w over the neighbours within interaction_radius ([1] 2.4); with
                                        GP_DENSITY_NUMBER the scheme's own, with the ghosts behind plates */
@@ -668,8 +669,8 @@ GP_API gp_status gp_get_plan(gp_sim *sim, int64_t n, gp_plan_entry *entries, int
  * is written beside its place as <path>.part-<process>-<number>, synced and renamed: whatever
  * happens, path is the new checkpoint or the one before. A program that is killed may leave the part, to be deleted. After
  * GP_E_IO (disk full, no such directory, ...) the old file is there as before, and the simulation can go on or be saved
- * elsewhere. The file has about 133 bytes per particle (125 where mu_2 = mu_s), and 32 more for those of gp_add_particles; it takes no
- * memory to speak of.
+ * elsewhere. The file has about 133 bytes per particle (125 where mu_2 = mu_s), 96 more with sleep = 1, and 32 more for those of
+ * gp_add_particles; it takes no memory to speak of.
  *
  * gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a checkpoint: GP_E_IO; one in another
  * format, as those of 0.1 are: GP_E_VERSION; *sim is then NULL. A checkpoint is for the version of the library that wrote it;

@@ -189,8 +189,11 @@ void check_numbers(const Checker &check, const World &world, const char *name, c
     for (std::size_t k = 0; k < count && array == "asleep"; ++k)
         check.require_each(values[k] == 0 || values[k] == 1,
                            [&] { return format_text("asleep: %g, expected 0 or 1", values[k]); });
-    for (std::size_t k = 0; k < count && (array == "pressure" || array == "mean_pressure"); ++k)
-        check.require_each(values[k] >= 0, [&] { return format_text("a %s of %g Pa", name, values[k]); });
+    for (const char *not_negative :
+         {"pressure", "mean_pressure", "fluidity", "quiet_for", "quiet_pressure", "quiet_fluidity"})
+        for (std::size_t k = 0; k < count && array == not_negative; ++k)
+            check.require_each(values[k] >= 0,
+                               [&] { return format_text("%s: %g, expected at least 0", name, values[k]); });
 }
 
 void check_list_positions(const Checker &check, const World &world, int64_t count) {

@@ -46,6 +46,8 @@ void add_material(std::string &text, const gp_material &m) {
 }
 
 void add_plate(std::string &text, const PlateSpec &p) {
+    static_assert(sizeof(gp_plate) ==
+                  192); // one that grows does not compile: checkpoints and this need its new numbers
     Object object(text);
     if (p.points.size() == 2) {
         object.value("x0", p.points[0].x());
@@ -70,6 +72,11 @@ void add_plate(std::string &text, const PlateSpec &p) {
     object.value("pivot_y", p.pivot.y());
     object.value("omega", p.motion.omega);
     object.value("surface_velocity", p.surface_velocity);
+    if (p.start != Vector::Zero() || p.start_angle != 0) { // driven before the first step
+        object.value("start_x", p.start.x());
+        object.value("start_y", p.start.y());
+        object.value("start_angle", p.start_angle);
+    }
     if (!p.table.empty()) {
         object.array("knot_t", p.table.t);
         object.array("knot_x", p.table.x);

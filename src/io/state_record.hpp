@@ -10,6 +10,7 @@ namespace gp::io {
 
 // All of gp_state but struct_size and wall_seconds, which is not the same in two runs.
 template <class Visit> void for_each_observable(const gp_state &s, const Visit &visit) {
+    static_assert(sizeof(gp_state) == 424); // a state that grows does not compile here: it needs the new names
     visit("time", "s", s.time);
     visit("step", "", static_cast<double>(s.step));
     visit("dt", "s", s.dt);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "parallel.hpp"
+#include "inline.hpp"
 
 namespace gp {
 

@@ -122,11 +122,11 @@ void choose_dt(World &world) {
     }
     if (clock.time_left > 0 && land(clock.time_left, dt))
         clock.reason = GP_DT_END;
+    clock.dt = dt; // also where it is refused: whether half of it would do is asked of it
     if (!(clock.time + dt > clock.time))
         throw make_error(clock.step == 0 ? GP_E_ARGUMENT : GP_E_DIVERGED,
                          "time step %g s: too small to move the clock on from %g s; speeds differ by up to %g m/s", dt,
                          clock.time, world.velocity_span);
-    clock.dt = dt;
     // Only a demanded step is as long as this.
     const double motion = world.velocity_span * dt / c.spacing;
     if (!(motion <= motion_bound) || dt > arrival(world))

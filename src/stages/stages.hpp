@@ -1,4 +1,4 @@
-// The stages of a time step, in the order in which plan.cpp runs them. Each is one function in one file.
+// The stages of a time step; plan.cpp says in which order they run. Each is one function, most of them in a file of their own.
 #pragma once
 
 #include "world.hpp"

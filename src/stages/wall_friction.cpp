@@ -37,13 +37,15 @@ double rate_per_slip_of(const World &world, const Contact &contact, const Course
 
 // Between surface and particle the mean rate is slip over distance, y; of a curved profile that is the rate at y/2. The gradient
 // that the particle's neighbours make, all on one side, is the rate further inside; so the difference tells the curvature, and
-// the rate at the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. direction: 1 or -1, of the slip along the
-// tangent.
+// the rate at the surface (OneSidedSlope in kernel.hpp). It is exact for a parabola. The paper's schemes take no gradient without
+// ghosts, and have the mean rate. direction: 1 or -1, of the slip along the tangent.
 GP_INLINE SurfaceRate surface_rate(const World &world, const Contact &contact, const Course &course, double direction) {
     const Constants &c = world.constants;
     const int64_t i = contact.particle;
     const Segment &s = world.walls.facets[contact.facet].segment;
     const Vector at = place_before(world, contact, course);
+    if (by_number_density(c.scheme))
+        return {rate_per_slip(s, at, c.spacing), 0};
     const double share = c.one_sided.share(s.distance(at) / c.horizon);
     const double inside = direction * s.tangent.dot(inner_gradient(world, i) * s.normal);
     return {(1 + share) * rate_per_slip(s, at, c.spacing), -share * inside};

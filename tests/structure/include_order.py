@@ -5,7 +5,7 @@ import re
 import sys
 
 LAYERS = [
-    ["granperi/gp", "error", "check", "entry", "float_environment", "level", "parallel"],
+    ["granperi/gp", "error", "check", "entry", "float_environment", "inline", "level", "parallel"],
     ["geometry", "kernel", "lanes", "material/number_density_state", "material/regularized", "material/return_map", "material/compression", "material/fluidity", "material/linearized"],
     ["scene", "scene_constants", "scene_defaults", "scene_falls", "scene_plates", "scene_stress"],
     ["exact_sum", "binned_sum", "crossing", "particles"],

@@ -88,7 +88,6 @@ class Field(enum.IntFlag):
 
 FIELD_NAMES = tuple(name.lower() for name in Field.__members__)
 
-#: Groups of fields by one name.
 # What each is, with its unit: gp_particles in gp.h.
 FIELD_MEANINGS = {
     "id": "counted from 0 in the order in which particles were added",
@@ -108,6 +107,7 @@ FIELD_MEANINGS = {
     "number_density": "N, the sum of the weights of the neighbours within interaction_radius (Jin et al. 2021, 2.4)",
     "fluidity": "g, the plastic shear rate 2 |gamma| over tau / p, 1/s; 0 without Material.nonlocal_amplitude",
 }
+#: Groups of fields by one name.
 FIELD_GROUPS = {"position": ("x", "y"), "velocity": ("vx", "vy"), "stress": ("sxx", "sxy", "syy"), "all": FIELD_NAMES}
 
 
