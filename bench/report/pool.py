@@ -64,7 +64,8 @@ def origin(rows: list[dict[str, Any]]) -> str:
         parts.append(f"{len(said)} runs are of commit {', '.join(commits)}, on {' and '.join(machines)}, "
                      f"{' to '.join(sorted({days[0], days[-1]}))}")
     if silent:
-        parts.append(f"{silent} runs do not say of which sources, machine and day they are: the commits {ENTERED} entered them")
+        parts.append(f"{f'{silent} runs' if said else 'They'} do not say of which sources, machine and day they are: "
+                     f"the commits {ENTERED} entered them")
     return "; ".join(parts) + "."
 
 

@@ -187,15 +187,11 @@ def text(drawn: list[coverage.Drawn], later: list[coverage.Drawn], rows: list[di
     choice_table, left_out_table = choices(values, fewer)
     return f"""# How often the errors of a report hold
 
-`granperi.report` states what a run of a scene errs by, from runs of that scene alone ([How sure is my result?](guide/report.md)).
-Written by `bench/report/report.py`; the {len(rows)} runs, {seconds:.0f} CPU s, are in `bench/report/pool.jsonl`, made by
-`bench/report/pool.py`. {pool.origin(rows)}
+The stated error of the mean holds in **{share(held)}** of {len(drawn)} reports ({n_cases} cases), and is at most three times the true one in
+**{share(narrow)}** (median {median:.1f} times). It is what `granperi.report` says that a run of a scene errs by, from runs of that scene alone
+([How sure is my result?](guide/report.md)).
 
-- {n_cases} cases (columns with a = 1.25 and 5 and a hopper, five quantities, four ladders of three or four spacings), {draws} reports
-  of each, with {coverage.SEEDS} runs of each spacing, drawn from the pool. The truth is the mean of the finest runs, which no report sees.
-- The stated error of the mean holds it in **{share(held)}** of them, and is at most three times the true one in
-  **{share(narrow)}** (median {median:.1f} times).
-- Four more scenes, {n_later} cases, were run after bounds and shares had been chosen: it holds in **{headline('report.later.held', share(held_later))}**, and is at most
+- In four more scenes, {n_later} cases, run after bounds and shares had been chosen, it holds in **{headline('report.later.held', share(held_later))}**, and is at most
   three times the true one in **{headline('report.later.narrow', share(narrow_later))}**.
 - The CPU time of a run up to twice as fine as the finest of the report is forecast within 30 % in **{within} of {of}** cases (the
   worst is off by {headline('report.cost.worst', share(worst))}).
@@ -204,6 +200,10 @@ Written by `bench/report/report.py`; the {len(rows)} runs, {seconds:.0f} CPU s, 
 
 *Stated against true error of the mean, one dot per report. Above the line it holds; in the grey band it is at most three times too
 wide. True errors below {LEFT} % are drawn at the left edge.*
+
+A case is one quantity of one scene on one ladder of spacings: columns with a = 1.25 and 5 and a hopper, five quantities of each, four ladders
+of three or four spacings. Of each case there are {draws} reports, with {coverage.SEEDS} runs of each spacing, drawn from a pool of runs. The truth is the mean of
+the finest runs, which no report sees.
 
 ## What is stated
 
@@ -290,6 +290,11 @@ with the area, the time per particle as a + b / √particles (volume, and surfac
 With a = 0.5 all particles fall asleep at once, when the last of them rests: at 0.3 to 0.7 s of 0.7. So runs of one spacing take times that
 differ by a factor of 1.7, and no forecast from four of them is better than that. Their medians of 8 and 12 spacings are of runs that
 slept late.
+
+## How these numbers were made
+
+By `bench/report/report.py` from the {len(rows)} runs in `bench/report/pool.jsonl`, {seconds:.0f} CPU s, which `bench/report/pool.py` makes.
+{pool.origin(rows)}
 """
 
 
