@@ -4,7 +4,7 @@ from __future__ import annotations
 import functools
 import json
 import os
-from typing import TYPE_CHECKING, Any, Iterator
+from typing import TYPE_CHECKING, Any, Iterator, Mapping
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ._enums import FIELD_NAMES, StepLimit
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
 from ._plate import Plate
 from ._simulation import Simulation
-from ._state import MARKS, History, State
+from ._state import History, State
 from ._tables import as_html
 
 if TYPE_CHECKING:
@@ -85,7 +85,11 @@ class Snapshot:
 
     @property
     def state(self) -> State:
-        """Clock, energies, fronts and peak; in a frame wall_seconds is NaN."""
+        """Clock, energies, fronts and peak.
+
+        In a frame wall_seconds is NaN; so is what the version that wrote the file did not know, but None for at_rest and
+        dt_reason.
+        """
         raise NotImplementedError
 
     def surface(self, x) -> np.ndarray:
@@ -364,17 +368,19 @@ class Result:
         return f"<granperi.Result {self.path}: {len(self)} frames>"
 
 
-# What a frame does not hold: wall-clock time, and what the version that wrote the file did not know.
-_ABSENT = {"wall_seconds": float("nan"), "spacing_dissipated": float("nan"), "centre_x": float("nan"),
-           "centre_y": float("nan"), "detached": float("nan"), "volume_drift": float("nan"),
-           "gravity_x": float("nan"), "gravity_y": float("nan"),
-           **{name: float("nan") for name in MARKS.values()}}
-_KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
+# How a number in a file becomes a field of State, and what stands for one that is not there. Of whole numbers that is NaN as
+# well, with which the arrays of a history are numbers; but NaN would count as true, and is no StepLimit.
+_KINDS: dict[str, tuple[Any, Any]] = {"float": (float, float("nan")), "int": (int, float("nan")), "bool": (bool, None),
+                                      "StepLimit": (lambda value: StepLimit(int(value)), None)}
 
 
-def _state_of(values: dict[str, Any]) -> State:
-    kinds = {name: _KINDS.get(name, float if State.__annotations__[name] == "float" else int) for name in values}
-    return State(**{**_ABSENT, **{name: kinds[name](value) for name, value in values.items()}})
+def _state_of(values: Mapping[str, Any]) -> State:
+    """The State of a frame, which lacks wall_seconds and what the version that wrote the file did not know."""
+    def field(name: str, kind: str) -> Any:
+        read, absent = _KINDS[kind]
+        return read(values[name]) if name in values else absent
+
+    return State(**{name: field(name, kind) for name, kind in State.__annotations__.items()})
 
 
 class FrameError(ArgumentError, IndexError):
