@@ -75,7 +75,8 @@ class Snapshot:
         """The line of each plate where it is now, as far as that is known.
 
         Returns:
-            A list of arrays, m, shape (number of its points, 2).
+            A list of arrays, m, shape (number of its points, 2); less whole periods, so that the middle of each is in the
+            period.
 
         Example:
             with granperi.Result("collapse.h5") as result:
@@ -149,7 +150,8 @@ class LiveSnapshot(Snapshot):
 
     def plate_lines(self) -> list[np.ndarray]:
         loads = [self._sim.plate_load(k) for k in range(len(self._sim._plates))]
-        return [plate.placed(at.dx, at.dy, at.angle) for plate, at in zip(self._sim._plates, loads)]
+        lines = [plate.placed(at.dx, at.dy, at.angle) for plate, at in zip(self._sim._plates, loads)]
+        return _within_period(lines, dict(self._sim._config))
 
 
 class FileSnapshot(Snapshot):
@@ -185,7 +187,7 @@ class FileSnapshot(Snapshot):
         return friction[self._result.scene["columns"]]
 
     def plate_lines(self) -> list[np.ndarray]:
-        return self._result._plate_lines(self._frame)
+        return _within_period(self._result._plate_lines(self._frame), self._result.scene["config"])
 
 
 class Result:
@@ -381,6 +383,29 @@ def _state_of(values: Mapping[str, Any]) -> State:
         return read(values[name]) if name in values else absent
 
     return State(**{name: field(name, kind) for name, kind in State.__annotations__.items()})
+
+
+def _period_of(config: Mapping[str, Any]) -> tuple[float, float]:
+    """Where the period begins, and its length, m; 0: there is none."""
+    x_min = config.get("periodic_x_min", 0.0)
+    return x_min, config.get("periodic_x_max", 0.0) - x_min
+
+
+def _within_period(lines: list[np.ndarray], config: Mapping[str, Any]) -> list[np.ndarray]:
+    """Lines less whole periods, so that the middle of each is in the period.
+
+    The library takes them off when it makes its lists anew: until then a line in a file may be beyond an end.
+    """
+    x_min, length = _period_of(config)
+    if not length > 0:
+        return lines
+
+    def within(line: np.ndarray) -> np.ndarray:
+        middle = 0.5 * (line[:, 0].min() + line[:, 0].max())
+        # What is at an end is at the left one, whichever way its place was rounded.
+        return line - [length * np.floor((middle - x_min) / length + 1e-9), 0.0]
+
+    return [within(line) for line in lines]
 
 
 class FrameError(ArgumentError, IndexError):
