@@ -11,6 +11,7 @@ import numpy as np
 from ._derived import DERIVED, derived
 from ._enums import FIELD_NAMES, StepLimit
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
+from ._objects import Config
 from ._plate import Plate
 from ._simulation import Simulation
 from ._state import History, State
@@ -65,7 +66,7 @@ class Snapshot:
         raise NotImplementedError
 
     def _shape(self) -> Simulation:
-        """A simulation of these particles, which the library is asked for fronts, surface and interface."""
+        """A simulation of these particles and plates, which the library is asked for surface and interface."""
         raise NotImplementedError
 
     def _friction_of_columns(self) -> np.ndarray:
@@ -75,8 +76,8 @@ class Snapshot:
         """The line of each plate where it is now, as far as that is known.
 
         Returns:
-            A list of arrays, m, shape (number of its points, 2); less whole periods, so that the middle of each is in the
-            period.
+            A list of arrays, m, shape (number of its points, 2); less whole periods, so that the middle of each is in
+            the period.
 
         Example:
             with granperi.Result("collapse.h5") as result:
@@ -88,8 +89,8 @@ class Snapshot:
     def state(self) -> State:
         """Clock, energies, fronts and peak.
 
-        In a frame wall_seconds is NaN; so is what the version that wrote the file did not know, but None for at_rest and
-        dt_reason.
+        In a frame wall_seconds is NaN; so is what the version that wrote the file did not know, but None for at_rest
+        and dt_reason.
         """
         raise NotImplementedError
 
@@ -171,14 +172,27 @@ class FileSnapshot(Snapshot):
 
     def _shape(self) -> Simulation:
         if self._sim is None:
-            config = dict(self._result.scene["config"])
-            period = {name: config[name] for name in ("periodic_x_min", "periodic_x_max") if name in config}
-            sim = Simulation(spacing=self.spacing, threads=1, sound_speed=self._result.sound_speed, **period)
-            columns = self._read("column") if self._result.has("column") else np.zeros(len(self.x), int)
+            scene = self._result.scene
+            # The scheme and its reach say which plates a particle is in contact with.
+            known = {name: scene["config"].get(name.rstrip("_")) for name in Config.names()}
+            config = {name: value for name, value in known.items() if value is not None}
+            config |= {"spacing": self.spacing, "sound_speed": self._result.sound_speed, "threads": 1, "sleep": 0}
+            sim = Simulation(**config)
+            x, y = self.x, self.y
+            x_min, length = _period_of(scene["config"])
+            if length > 0:  # particles return into the period now and then only, and none may be added beyond its ends
+                x = np.clip(x - length * np.floor((x - x_min) / length), x_min, x_min + length)
+            columns = self._read("column") if self._result.has("column") else np.zeros(len(x), int)
             for column in range(columns.max(initial=0) + 1):
                 here = columns == column
                 if here.any():  # there may be no particles at all; a column always has some
-                    sim.add_particles(self.x[here], self.y[here])
+                    sim.add_particles(x[here], y[here])
+            # The surface is mirrored at plates, and what is behind them is hidden. Plates that meet are one wall if
+            # they move together, so each has a velocity that stands for its motion: by the scene, as the file does not
+            # say which ones the host has driven.
+            for line, motion in zip(self.plate_lines(), _motions(scene["plates"])):
+                ends = {"points": line} if len(line) > 2 else dict(zip(("x0", "y0", "x1", "y1"), line.ravel()))
+                sim.add_plate(**ends, vx=motion)
             self._sim = sim
         return self._sim
 
@@ -370,8 +384,8 @@ class Result:
         return f"<granperi.Result {self.path}: {len(self)} frames>"
 
 
-# How a number in a file becomes a field of State, and what stands for one that is not there. Of whole numbers that is NaN as
-# well, with which the arrays of a history are numbers; but NaN would count as true, and is no StepLimit.
+# How a number in a file becomes a field of State, and what stands for one that is not there. Of whole numbers that is
+# NaN as well, with which the arrays of a history are numbers; but NaN would count as true, and is no StepLimit.
 _KINDS: dict[str, tuple[Any, Any]] = {"float": (float, float("nan")), "int": (int, float("nan")), "bool": (bool, None),
                                       "StepLimit": (lambda value: StepLimit(int(value)), None)}
 
@@ -406,6 +420,20 @@ def _within_period(lines: list[np.ndarray], config: Mapping[str, Any]) -> list[n
         return line - [length * np.floor((middle - x_min) / length + 1e-9), 0.0]
 
     return [within(line) for line in lines]
+
+
+def _motions(plates: list[dict[str, Any]]) -> list[int]:
+    """A number for the motion of each plate of a scene, the same for those that move together (Plate::moves_with)."""
+    numbers: dict[tuple[Any, ...], int] = {}
+
+    def number(plate: int, values: dict[str, Any]) -> int:
+        names = ["vx", "vy", "omega", "knot_t", "knot_x", "knot_y", "knot_angle"]
+        if values.get("omega") or values.get("knot_angle"):
+            names += ["pivot_x", "pivot_y"]
+        alone = plate if values.get("normal_pressure") else None  # it moves by what it bears
+        return numbers.setdefault((alone, *(str(values.get(name)) for name in names)), plate)
+
+    return [number(plate, values) for plate, values in enumerate(plates)]
 
 
 class FrameError(ArgumentError, IndexError):
