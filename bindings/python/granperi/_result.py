@@ -4,16 +4,17 @@ from __future__ import annotations
 import functools
 import json
 import os
-from typing import TYPE_CHECKING, Any, Iterator
+from typing import TYPE_CHECKING, Any, Iterator, Mapping
 
 import numpy as np
 
 from ._derived import DERIVED, derived
 from ._enums import FIELD_NAMES, StepLimit
 from ._errors import ArgumentError, ArgumentTypeError, FileError, StateError, near_match
+from ._objects import Config
 from ._plate import Plate
 from ._simulation import Simulation
-from ._state import MARKS, History, State
+from ._state import History, State
 from ._tables import as_html
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ class Snapshot:
         raise NotImplementedError
 
     def _shape(self) -> Simulation:
-        """A simulation of these particles, which the library is asked for fronts, surface and interface."""
+        """A simulation of these particles and plates, which the library is asked for surface and interface."""
         raise NotImplementedError
 
     def _friction_of_columns(self) -> np.ndarray:
@@ -75,7 +76,8 @@ class Snapshot:
         """The line of each plate where it is now, as far as that is known.
 
         Returns:
-            A list of arrays, m, shape (number of its points, 2).
+            A list of arrays, m, shape (number of its points, 2); less whole periods, so that the middle of each is in
+            the period.
 
         Example:
             with granperi.Result("collapse.h5") as result:
@@ -85,7 +87,11 @@ class Snapshot:
 
     @property
     def state(self) -> State:
-        """Clock, energies, fronts and peak; in a frame wall_seconds is NaN."""
+        """Clock, energies, fronts and peak.
+
+        In a frame wall_seconds is NaN; so is what the version that wrote the file did not know, but None for at_rest
+        and dt_reason.
+        """
         raise NotImplementedError
 
     def surface(self, x) -> np.ndarray:
@@ -145,7 +151,8 @@ class LiveSnapshot(Snapshot):
 
     def plate_lines(self) -> list[np.ndarray]:
         loads = [self._sim.plate_load(k) for k in range(len(self._sim._plates))]
-        return [plate.placed(at.dx, at.dy, at.angle) for plate, at in zip(self._sim._plates, loads)]
+        lines = [plate.placed(at.dx, at.dy, at.angle) for plate, at in zip(self._sim._plates, loads)]
+        return _within_period(lines, dict(self._sim._config))
 
 
 class FileSnapshot(Snapshot):
@@ -165,14 +172,27 @@ class FileSnapshot(Snapshot):
 
     def _shape(self) -> Simulation:
         if self._sim is None:
-            config = dict(self._result.scene["config"])
-            period = {name: config[name] for name in ("periodic_x_min", "periodic_x_max") if name in config}
-            sim = Simulation(spacing=self.spacing, threads=1, sound_speed=self._result.sound_speed, **period)
-            columns = self._read("column") if self._result.has("column") else np.zeros(len(self.x), int)
+            scene = self._result.scene
+            # The scheme and its reach say which plates a particle is in contact with.
+            known = {name: scene["config"].get(name.rstrip("_")) for name in Config.names()}
+            config = {name: value for name, value in known.items() if value is not None}
+            config |= {"spacing": self.spacing, "sound_speed": self._result.sound_speed, "threads": 1, "sleep": 0}
+            sim = Simulation(**config)
+            x, y = self.x, self.y
+            x_min, length = _period_of(scene["config"])
+            if length > 0:  # particles return into the period now and then only, and none may be added beyond its ends
+                x = np.clip(x - length * np.floor((x - x_min) / length), x_min, x_min + length)
+            columns = self._read("column") if self._result.has("column") else np.zeros(len(x), int)
             for column in range(columns.max(initial=0) + 1):
                 here = columns == column
                 if here.any():  # there may be no particles at all; a column always has some
-                    sim.add_particles(self.x[here], self.y[here])
+                    sim.add_particles(x[here], y[here])
+            # The surface is mirrored at plates, and what is behind them is hidden. Plates that meet are one wall if
+            # they move together, so each has a velocity that stands for its motion: by the scene, as the file does not
+            # say which ones the host has driven.
+            for line, motion in zip(self.plate_lines(), _motions(scene["plates"])):
+                ends = {"points": line} if len(line) > 2 else dict(zip(("x0", "y0", "x1", "y1"), line.ravel()))
+                sim.add_plate(**ends, vx=motion)
             self._sim = sim
         return self._sim
 
@@ -181,7 +201,7 @@ class FileSnapshot(Snapshot):
         return friction[self._result.scene["columns"]]
 
     def plate_lines(self) -> list[np.ndarray]:
-        return self._result._plate_lines(self._frame)
+        return _within_period(self._result._plate_lines(self._frame), self._result.scene["config"])
 
 
 class Result:
@@ -364,17 +384,56 @@ class Result:
         return f"<granperi.Result {self.path}: {len(self)} frames>"
 
 
-# What a frame does not hold: wall-clock time, and what the version that wrote the file did not know.
-_ABSENT = {"wall_seconds": float("nan"), "spacing_dissipated": float("nan"), "centre_x": float("nan"),
-           "centre_y": float("nan"), "detached": float("nan"), "volume_drift": float("nan"),
-           "gravity_x": float("nan"), "gravity_y": float("nan"),
-           **{name: float("nan") for name in MARKS.values()}}
-_KINDS: dict[str, Any] = {"at_rest": bool, "dt_reason": lambda value: StepLimit(int(value))}
+# How a number in a file becomes a field of State, and what stands for one that is not there. Of whole numbers that is
+# NaN as well, with which the arrays of a history are numbers; but NaN would count as true, and is no StepLimit.
+_KINDS: dict[str, tuple[Any, Any]] = {"float": (float, float("nan")), "int": (int, float("nan")), "bool": (bool, None),
+                                      "StepLimit": (lambda value: StepLimit(int(value)), None)}
 
 
-def _state_of(values: dict[str, Any]) -> State:
-    kinds = {name: _KINDS.get(name, float if State.__annotations__[name] == "float" else int) for name in values}
-    return State(**{**_ABSENT, **{name: kinds[name](value) for name, value in values.items()}})
+def _state_of(values: Mapping[str, Any]) -> State:
+    """The State of a frame, which lacks wall_seconds and what the version that wrote the file did not know."""
+    def field(name: str, kind: str) -> Any:
+        read, absent = _KINDS[kind]
+        return read(values[name]) if name in values else absent
+
+    return State(**{name: field(name, kind) for name, kind in State.__annotations__.items()})
+
+
+def _period_of(config: Mapping[str, Any]) -> tuple[float, float]:
+    """Where the period begins, and its length, m; 0: there is none."""
+    x_min = config.get("periodic_x_min", 0.0)
+    return x_min, config.get("periodic_x_max", 0.0) - x_min
+
+
+def _within_period(lines: list[np.ndarray], config: Mapping[str, Any]) -> list[np.ndarray]:
+    """Lines less whole periods, so that the middle of each is in the period.
+
+    The library takes them off when it makes its lists anew: until then a line in a file may be beyond an end.
+    """
+    x_min, length = _period_of(config)
+    if not length > 0:
+        return lines
+
+    def within(line: np.ndarray) -> np.ndarray:
+        middle = 0.5 * (line[:, 0].min() + line[:, 0].max())
+        # What is at an end is at the left one, whichever way its place was rounded.
+        return line - [length * np.floor((middle - x_min) / length + 1e-9), 0.0]
+
+    return [within(line) for line in lines]
+
+
+def _motions(plates: list[dict[str, Any]]) -> list[int]:
+    """A number for the motion of each plate of a scene, the same for those that move together (Plate::moves_with)."""
+    numbers: dict[tuple[Any, ...], int] = {}
+
+    def number(plate: int, values: dict[str, Any]) -> int:
+        names = ["vx", "vy", "omega", "knot_t", "knot_x", "knot_y", "knot_angle"]
+        if values.get("omega") or values.get("knot_angle"):
+            names += ["pivot_x", "pivot_y"]
+        alone = plate if values.get("normal_pressure") else None  # it moves by what it bears
+        return numbers.setdefault((alone, *(str(values.get(name)) for name in names)), plate)
+
+    return [number(plate, values) for plate, values in enumerate(plates)]
 
 
 class FrameError(ArgumentError, IndexError):
