@@ -74,11 +74,10 @@ Surface::Surface(const World &world, const std::vector<char> &connected) : spaci
     });
 }
 
-// The mirror images of one particle in the plates that it is in contact with, in the facets that it is in front of now: those of the
-// last step are not in a checkpoint.
+// The mirror images of one particle in the plates that it is in contact with.
 void Surface::add_mirrored(const Walls &walls, int64_t place, const Vector &at) {
     for (int64_t c = walls.contact_start[place]; c < walls.contact_start[place + 1]; ++c) {
-        const int32_t id = walls.facet_before(walls.contacts[c], at);
+        const int32_t id = walls.contacts[c].facet;
         const Segment &s = walls.facets[id].segment;
         const Vector image = walls.nearest_image(s, at);
         const double distance = s.distance(image), along = s.along(image), beyond = past_end * spacing_;

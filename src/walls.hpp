@@ -120,11 +120,6 @@ struct Walls {
     // Do the plates that made a wall when the lists were made still move together?
     bool chains_stand() const { return chains_.stand(plates); }
 
-    // The facet of a contact's chain that a place is in front of.
-    int32_t facet_before(const Contact &contact, const Vector &at) const {
-        return chains_.any() ? facing(contact.listed_facet, at) : contact.facet;
-    }
-
     // Turns each contact to the facet of its chain that the particle is in front of by now.
     void face_facets(const Particles &particles);
 

@@ -7,6 +7,7 @@
 // speed left at 1 s is .074, .026 and .028 sqrt(g d), against .013 of the force states with the same friction.
 #include "mps_operators.hpp"
 #include "parallel.hpp"
+#include "stages/rows.hpp"
 #include "stages/stages.hpp"
 
 namespace gp::stages {
@@ -62,13 +63,14 @@ struct View {
     const int32_t *index;
     const int32_t *contact_start; // NULL where no plate is in reach
     Contact *contacts;
+    const Facet *facets;
     const int32_t *ghost_index;
     double inverse_radius, floor, scale;
     double *fx, *fy; // N/m3
 };
 
 // The load on a plate is by the sum of the stresses in place of their difference: the traction that the pairs through its
-// surface pass on.
+// surface pass on; of a plate that is not rough its normal part, since the shear traction is the stage wall_friction's.
 void viscous_rows(const View &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = v.particles.x[i], yi = v.particles.y[i];
@@ -102,6 +104,12 @@ void pressure_rows(const View &v, int64_t begin, int64_t end) {
                 contact.force_x -= v.scale * (s.ax + own * s.x);
                 contact.force_y -= v.scale * (s.ay + own * s.y);
                 sum += s;
+                if (const Facet &facet = v.facets[contact.facet]; !passes_shear(facet)) {
+                    const Vector &n = facet.segment.normal;
+                    const double normal = n.x() * contact.force_x + n.y() * contact.force_y;
+                    contact.force_x = normal * n.x();
+                    contact.force_y = normal * n.y();
+                }
             }
         v.fx[i] = -v.scale * (sum.ax - own * sum.x);
         v.fy[i] = -v.scale * (sum.ay - own * sum.y);
@@ -117,6 +125,7 @@ View make_view(World &world, const Points &particles, double *fx, double *fy) {
             world.neighbors.index.data(),
             w.in_reach() ? w.contact_start.data() : nullptr,
             w.contacts.data(),
+            w.facets.data(),
             w.ghost_of_contact.data(),
             1.0 / c.interaction_radius,
             nearest_square * c.volume,

@@ -393,6 +393,7 @@ TEST(LineOfPlates, HasTheSameSurfaceFromACheckpoint) {
     const TemporaryDirectory directory("chains");
     const std::string path = directory.path() + "/chain.gpc";
     Vessel bowl(-180, 24);
+    ASSERT_EQ(gp_set_gravity(bowl.sim, 9.81, -4), GP_OK);
     const auto heights = [](gp_sim *sim) {
         std::vector<double> x, y(81);
         for (std::size_t k = 0; k < y.size(); ++k)
@@ -400,8 +401,8 @@ TEST(LineOfPlates, HasTheSameSurfaceFromACheckpoint) {
         EXPECT_EQ(gp_get_surface(sim, static_cast<int64_t>(x.size()), x.data(), y.data()), GP_OK) << gp_last_error();
         return y;
     };
-    for (int k = 0; k < 40; ++k) {
-        bowl.sim.step(13);
+    for (int k = 0; k < 400; ++k) {
+        bowl.sim.step(3);
         const gp_status saved = gp_save(bowl.sim, path.c_str());
         if (saved == GP_E_UNSUPPORTED)
             GTEST_SKIP() << gp_last_error();
