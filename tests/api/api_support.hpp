@@ -101,63 +101,52 @@ inline uint64_t bits_of(double value) {
     return bits;
 }
 
-constexpr int numbers_of_load = 10;
-
-// All that the simulation shows, as bits: every field in the order of id, the state but for the wall-clock time, loads.
-inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
-    std::vector<uint64_t> bits;
-    const auto add = [&](double value) { bits.push_back(bits_of(value)); };
+// What follows is what a simulation shows, as bits. Every field of these in the order of id.
+inline void add_fields(std::vector<uint64_t> &bits, const Sim &sim, uint32_t fields = GP_FIELD_ALL) {
     for (uint32_t bit = 1; bit & GP_FIELD_ALL; bit <<= 1)
-        for (const double value : sim.field(bit))
-            add(value);
-    const gp_state s = sim.state();
-    for (const double value : {s.time,
-                               static_cast<double>(s.step),
-                               s.dt,
-                               static_cast<double>(s.n_particles),
-                               static_cast<double>(s.n_awake),
-                               s.kinetic,
-                               s.potential,
-                               s.elastic,
-                               s.dissipated,
-                               s.plate_work,
-                               s.energy_error,
-                               s.momentum_x,
-                               s.momentum_y,
-                               s.max_speed,
-                               s.rms_speed,
-                               s.x_left,
-                               s.x_right,
-                               s.peak_x,
-                               s.peak_height,
-                               s.max_pressure,
-                               static_cast<double>(s.at_rest),
-                               static_cast<double>(s.collisions),
-                               s.sound_speed,
-                               s.penalty_dissipated,
-                               s.wall_dissipated,
-                               s.bulk_dissipated,
-                               s.collision_dissipated,
-                               s.spacing_dissipated,
-                               s.x_q01,
-                               s.x_q05,
-                               s.x_q25,
-                               s.x_q50,
-                               s.x_q75,
-                               s.x_q95,
-                               s.x_q99,
-                               s.centre_x,
-                               s.centre_y,
-                               s.detached,
-                               s.volume_drift})
-        add(value);
+        if (bit & fields)
+            for (const double value : sim.field(bit))
+                bits.push_back(bits_of(value));
+}
+
+// The whole state, also what it will have one day, but for the wall-clock time. Nobody says what lies between its members:
+// behind struct_size, with which it begins, and behind at_rest.
+inline void add_state(std::vector<uint64_t> &bits, gp_state state) {
+    static_assert(offsetof(gp_state, time) == sizeof(uint64_t) && sizeof state % sizeof(uint64_t) == 0);
+    state.wall_seconds = 0;
+    unsigned char bytes[sizeof state];
+    std::memcpy(bytes, &state, sizeof state);
+    constexpr std::size_t after_rest = offsetof(gp_state, at_rest) + sizeof state.at_rest;
+    std::memset(bytes + after_rest, 0, offsetof(gp_state, collisions) - after_rest);
+    for (std::size_t at = offsetof(gp_state, time); at < sizeof state; at += sizeof(uint64_t)) {
+        uint64_t word;
+        std::memcpy(&word, bytes + at, sizeof word);
+        bits.push_back(word);
+    }
+}
+
+inline void add_loads(std::vector<uint64_t> &bits, const Sim &sim, int32_t plates) {
     for (int32_t k = 0; k < plates; ++k) {
         const auto load = sim.load(k);
         for (const double value : {load.fx, load.fy, load.torque, load.dx, load.dy, load.impulse_x, load.impulse_y,
                                    load.torque_pivot, load.angle, load.impulse_torque})
-            add(value);
+            bits.push_back(bits_of(value));
     }
+}
+
+// All of that.
+inline std::vector<uint64_t> snapshot(const Sim &sim, int32_t plates = 0) {
+    std::vector<uint64_t> bits;
+    add_fields(bits, sim);
+    add_state(bits, sim.state());
+    add_loads(bits, sim, plates);
     return bits;
+}
+
+// After a step that was taken back the lists are new ones, and with them the ghosts that volume_drift counts.
+inline gp_state but_for_lists(gp_state state) {
+    state.volume_drift = 0;
+    return state;
 }
 
 inline bool last_error_has(const std::string &text) {

@@ -55,16 +55,11 @@ std::vector<uint64_t> views(const Sim &sim) {
     return bits;
 }
 
-// The state and the loads, from the one list of them.
+// The state and the loads.
 std::vector<uint64_t> scalars(const Sim &sim, int32_t plates) {
-    std::vector<uint64_t> bits = snapshot(sim, plates);
-    bits.erase(bits.begin(), bits.begin() + 16 * sim.count());
-    // The last of the state is volume_drift, which counts ghosts that the lists see: those of a step undone are new ones.
-    bits.erase(bits.end() - numbers_of_load * plates - 1);
-    const gp_state s = sim.state();
-    for (const double value : {s.diffusion_dissipated, s.spacing_dissipated, s.channel_dissipated, s.max_compression,
-                               s.dt_limit, static_cast<double>(s.dt_reason), static_cast<double>(s.retries)})
-        bits.push_back(bits_of(value));
+    std::vector<uint64_t> bits;
+    add_state(bits, but_for_lists(sim.state()));
+    add_loads(bits, sim, plates);
     return bits;
 }
 

@@ -1,6 +1,5 @@
 // gp_config.sleep: what is refused, what the plan and the state tell, and steps that are taken back.
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 #include "../support/scene.hpp"
@@ -13,18 +12,6 @@ gp_config sleeping(double spacing) {
     gp_config c = config(spacing);
     c.sleep = 1;
     return c;
-}
-
-gp_plan_entry entry(gp_sim *sim, const char *name, int32_t kind = 0) {
-    int64_t n = 0;
-    EXPECT_EQ(gp_get_plan(sim, 0, nullptr, &n), GP_OK);
-    std::vector<gp_plan_entry> plan(static_cast<std::size_t>(n));
-    EXPECT_EQ(gp_get_plan(sim, n, plan.data(), &n), GP_OK);
-    for (const gp_plan_entry &found : plan)
-        if (found.kind == kind && !std::strcmp(found.name, name))
-            return found;
-    ADD_FAILURE() << "no entry " << name;
-    return {};
 }
 
 void fill(Sim &sim) {
@@ -61,25 +48,25 @@ TEST(SleepChoice, ThePlanTellsWhatIsLeftOut) {
     fill(awake);
     awake.step();
     for (const char *stage : {"wake", "sleep"}) {
-        EXPECT_EQ(entry(awake, stage).active, 0);
-        EXPECT_STREQ(entry(awake, stage).reason, "sleep is 0");
+        EXPECT_EQ(awake.entry(stage).active, 0);
+        EXPECT_STREQ(awake.entry(stage).reason, "sleep is 0");
     }
-    EXPECT_EQ(entry(awake, "sleep", 1).bytes, 0);
+    EXPECT_EQ(awake.entry("sleep", 1).bytes, 0);
 
     Sim sim(sleeping(0.005));
     fill(sim);
     sim.step();
-    EXPECT_EQ(entry(sim, "gradient").active, 1);
+    EXPECT_EQ(sim.entry("gradient").active, 1);
     sim.run(1);
     ASSERT_EQ(sim.state().n_awake, 0);
     for (const char *stage : {"gradient", "stress", "force", "integrate", "collide", "sleep"}) {
-        EXPECT_EQ(entry(sim, stage).active, 0) << stage;
-        EXPECT_STREQ(entry(sim, stage).reason, "all material sleeps") << stage;
+        EXPECT_EQ(sim.entry(stage).active, 0) << stage;
+        EXPECT_STREQ(sim.entry(stage).reason, "all material sleeps") << stage;
     }
-    const int64_t calls = entry(sim, "gradient").calls;
+    const int64_t calls = sim.entry("gradient").calls;
     sim.step(100);
-    EXPECT_EQ(entry(sim, "gradient").calls, calls);
-    EXPECT_EQ(entry(sim, "wake").active, 1);
+    EXPECT_EQ(sim.entry("gradient").calls, calls);
+    EXPECT_EQ(sim.entry("wake").active, 1);
     for (const double value : sim.field(GP_FIELD_SHEAR_RATE))
         EXPECT_EQ(value, 0);
     // The impulse on the floor goes on to grow by the weight.

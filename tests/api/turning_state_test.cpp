@@ -107,14 +107,12 @@ TEST(TurningState, GoesOnFromACheckpoint) {
 
 namespace {
 
-// But for volume_drift, which counts ghosts that the lists see: those of a step undone are new ones; and for the number density,
-// whose sums go by the cells, which are new as well.
+// But for volume_drift, and for the number density, whose sums go by the cells: after a step undone these are new ones.
 std::vector<uint64_t> shown(const Sim &sim) {
-    std::vector<uint64_t> bits = snapshot(sim, plates);
-    bits.erase(bits.end() - numbers_of_load * plates - 1);
-    const int64_t n = sim.count();
-    static_assert(GP_FIELD_NUMBER_DENSITY == 1u << 14);
-    bits.erase(bits.begin() + 14 * n, bits.begin() + 15 * n);
+    std::vector<uint64_t> bits;
+    add_fields(bits, sim, GP_FIELD_ALL & ~GP_FIELD_NUMBER_DENSITY);
+    add_state(bits, but_for_lists(sim.state()));
+    add_loads(bits, sim, plates);
     return bits;
 }
 

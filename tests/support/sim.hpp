@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -83,6 +84,14 @@ public:
         good(gp_get_plan(handle, n, entries.data(), &n));
         EXPECT_EQ(n, static_cast<int64_t>(entries.size()));
         return entries;
+    }
+    // Of a stage; with 1 of a field, which may have the name of one.
+    gp_plan_entry entry(const std::string &name, int32_t kind = 0) const {
+        for (const gp_plan_entry &found : plan())
+            if (found.kind == kind && found.name == name)
+                return found;
+        ADD_FAILURE() << "no entry " << name << " of kind " << kind;
+        return {};
     }
 
     gp_sim *handle = nullptr;

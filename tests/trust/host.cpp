@@ -3,10 +3,11 @@
 //
 //   trust_host SCENE [--size N] [--threads N] [--spare-plate] [--spare-body] [--unused-material]
 //              [--load FILE] [--save-at STEP FILE] [--save-in-callback STEP FILE] [--save-every STEPS FILE]
-//              [--output FILE SECONDS] [--append] [--callback] [--log]
+//              [--output FILE SECONDS] [--append] [--callback] [--log] [--awake]
 //              [--to-step STEP] [--to-time SECONDS] [--until-killed] [--expect-diverged]
 //
 // One option --load replaces the making of the scene; SCENE then only says when the host drives which plate.
+// Steps are counted from where the scene begins: steps_before().
 #include <algorithm>
 #include <cinttypes>
 #include <cmath>
@@ -35,11 +36,16 @@ struct Options {
     int size = 1, threads = 1;
     int64_t save_at = -1, callback_save_at = -1, every_steps = 0, to_step = 0;
     double to_time = -1, output_seconds = 0;
-    bool append = false, callback = false, log = false, until_killed = false, expect_diverged = false;
+    bool append = false, callback = false, log = false, awake = false, until_killed = false, expect_diverged = false;
     bool spare_plate = false, spare_body = false, unused_material = false;
 };
 
 constexpr double dl = 0.0025;
+
+// What a scene has behind it where it begins: to fall asleep takes some 500 steps.
+int64_t steps_before(const std::string &scene) {
+    return scene == "sleep" ? 515 : 0;
+}
 
 void add_plate(gp_sim *sim, double x0, double y0, double x1, double y1, void (*set)(gp_plate &) = nullptr) {
     gp_plate p;
@@ -124,6 +130,19 @@ void add_turning(gp_sim *sim, int columns, int rows) {
              });
 }
 
+// Two beds in boxes, of which the thicker one falls asleep after the other, part by part. Plate 2 is a wall of the thin one.
+void add_beds(gp_sim *sim, int columns) {
+    const double width = columns * dl;
+    double x = 0;
+    add_plate(sim, 3 * width, 0, 0, 0);
+    for (const int rows : {4, 12}) {
+        add_plate(sim, x, 0, x, 0.04);
+        add_plate(sim, x + width, 0.04, x + width, 0);
+        add_column(sim, x, 0, columns, rows);
+        x += 2 * width;
+    }
+}
+
 gp_sim *make(const Options &o) {
     const std::string &scene = o.scene;
     const bool paper = scene == "paper" || scene == "regularized" || scene == "paper_driven";
@@ -161,6 +180,10 @@ gp_sim *make(const Options &o) {
         c.periodic_x_max = width;
     if (scene == "turning")
         c.periodic_x_max = 6 * width;
+    if (scene == "sleep") {
+        c.sleep = 1;
+        c.sound_speed = 4;
+    }
     gp_sim *sim;
     CHECK(gp_create(&c, &sim));
     gp_material heavy;
@@ -177,6 +200,8 @@ gp_sim *make(const Options &o) {
     if (scene ==
         "turning") { // a drum about a heap, a vane that the host turns, a hilly belt, across whose ends it lies
         add_turning(sim, columns, rows);
+    } else if (scene == "sleep") {
+        add_beds(sim, 3 * columns);
     } else if (scene == "periodic" || scene == "fluid_periodic" || scene == "diverge_periodic") {
         add_plate(sim, width, 0, 0, 0, [](gp_plate &p) { p.fluidity = GP_FLUIDITY_ZERO; });
         add_column(sim, 0, 0, columns, rows, 0.1, 0, main_material);
@@ -219,6 +244,8 @@ gp_sim *make(const Options &o) {
     }
     if (scene == "driven" || scene == "paper_driven") // before the first step, by a velocity in place of its table
         CHECK(gp_set_plate_velocity(sim, 2, 0.0, 0.1));
+    if (scene == "gravity") // so, too, in place of the config's
+        CHECK(gp_set_gravity(sim, 1, -9.7));
     if (o.spare_plate)
         add_plate(sim, 0, -50, 0, -51);
     if (o.spare_body)
@@ -230,6 +257,14 @@ gp_sim *make(const Options &o) {
 void drive(gp_sim *sim, const std::string &scene, int64_t step) {
     if (scene == "turning" && step % 30 == 7)
         CHECK(gp_set_plate_motion(sim, 1, 0.05, 0, step < 30 ? 2 : step < 60 ? -3 : 0.5));
+    if (scene == "sleep" && step == 20) // it wakes what rests beside it, and that, later on, the rest
+        CHECK(gp_set_plate_velocity(sim, 2, -0.06, 0));
+    if (scene == "gravity") {
+        if (step % 15 == 5) // it turns
+            CHECK(gp_set_gravity(sim, 0.05 * static_cast<double>(step), -9.5));
+        if (step == 70) // and ends
+            CHECK(gp_set_gravity(sim, 0, 0));
+    }
     if (scene != "driven" && scene != "paper_driven")
         return;
     if (step == 9)
@@ -356,6 +391,8 @@ Options parse(int argc, char **argv) {
             o.callback = true;
         else if (name == "--log")
             o.log = true;
+        else if (name == "--awake")
+            o.awake = true;
         else if (name == "--until-killed")
             o.until_killed = true;
         else if (name == "--expect-diverged")
@@ -371,6 +408,10 @@ Options parse(int argc, char **argv) {
             std::exit(2);
         }
     }
+    const int64_t before = steps_before(o.scene);
+    o.to_step += before;
+    o.save_at += o.save_at < 0 ? 0 : before;
+    o.callback_save_at += o.callback_save_at < 0 ? 0 : before;
     return o;
 }
 
@@ -391,10 +432,13 @@ int main(int argc, char **argv) {
     host.options = parse(argc, argv);
     const Options &o = host.options;
     gp_sim *sim;
-    if (o.load.empty())
+    if (o.load.empty()) {
         sim = make(o);
-    else
+        if (const int64_t before = steps_before(o.scene))
+            CHECK(gp_step(sim, before));
+    } else {
         CHECK(gp_load(o.load.c_str(), &sim));
+    }
     tell(sim, o.load.empty() ? "made" : "loaded", o);
     if (o.log)
         CHECK(gp_set_log(sim, log_line, nullptr));
@@ -412,11 +456,15 @@ int main(int argc, char **argv) {
     for (int64_t step = state_of(sim).step; o.until_killed || step < o.to_step; ++step) {
         if (step == o.save_at)
             CHECK(gp_save(sim, o.save.c_str()));
-        drive(sim, o.scene, step);
+        drive(sim, o.scene, step - steps_before(o.scene));
         const gp_status status = gp_step(sim, 1);
         if ((status == GP_E_DIVERGED || status == GP_E_STATE) && o.expect_diverged) // now, or before it was loaded
             break;
         check(status, "gp_step");
+        if (o.awake) {
+            const gp_state s = state_of(sim);
+            std::printf("awake %" PRId64 " asleep %" PRId64 "\n", s.n_awake, s.n_particles - s.n_awake);
+        }
         if (o.every_steps > 0 && (step + 1) % o.every_steps == 0) {
             CHECK(gp_save(sim, o.save_every.c_str()));
             tell(sim, "saved", o);

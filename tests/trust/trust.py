@@ -28,11 +28,12 @@ except ImportError:
         os.execv(system, [system, *sys.argv])
 
 # What there is to go wrong: the schemes; plates that move by tables, by the host, under loads, that turn; periods, side walls,
-# retries; a material with a granular fluidity in these.
+# retries; a material with a granular fluidity in these; gravity that the host turns; material that sleeps.
 SCENES = ["default", "implicit", "regularized", "paper", "paper_local", "periodic", "driven", "paper_driven", "loaded",
-          "channel", "retry", "turning", "fluid", "fluid_periodic", "fluid_retry"]
+          "channel", "retry", "turning", "fluid", "fluid_periodic", "fluid_retry", "gravity", "sleep"]
 DIVERGING = ["diverge", "diverge_periodic"]
 END = 90
+SAVED = (0, 1, 10, 44, 45)
 
 
 class Failure(Exception):
@@ -85,12 +86,23 @@ def check_restart(bench, scene, save_step, whole, extra=(), threads=(None, None)
     require(logs(before, after) == logs(whole), f"{where}: warnings are lost or repeated")
 
 
+def check_sleep(bench):
+    """That there is something to forget: after each of the steps saved some go on to sleep, some fall asleep and some wake."""
+    lines = bench.run("sleep", "--to-step", END, "--awake")
+    asleep = [int(line.split()[3]) for line in lines if line.startswith("awake ")]
+    for step in SAVED:
+        later = asleep[step:]
+        changes = [after - before for before, after in zip(later, later[1:])]
+        require(later[0] > 0 and min(changes) < 0 < max(changes), f"after step {step} there sleep {later}")
+
+
 def restart(bench, _):
     restarts = 0
+    check_sleep(bench)
     for scene in SCENES + DIVERGING:
         expect = ("--expect-diverged",) if scene in DIVERGING else ()
         whole = bench.run(scene, "--to-step", END, "--log", *expect)
-        for step in (0, 1, 10, 44, 45):
+        for step in SAVED:
             check_restart(bench, scene, step, whole, expect=expect)
             restarts += 1
     # Inside a callback, in a run to a point in time: also in the step that lands on it.
@@ -104,8 +116,8 @@ def restart(bench, _):
             require(state(after[-1]) == state(whole[-1]), f"{scene}: saved in the callback of step {step}")
             restarts += 1
     # With enough particles for the threads to share them.
-    for scene in ("default", "implicit", "paper", "paper_local", "periodic", "fluid", "fluid_periodic"):
-        extra = ("--size", 3 if scene != "implicit" else 2, "--threads", 0)
+    for scene in ("default", "implicit", "paper", "paper_local", "periodic", "fluid", "fluid_periodic", "sleep"):
+        extra = ("--size", 3 if scene not in ("implicit", "sleep") else 2, "--threads", 0)
         whole = bench.run(scene, "--to-step", END, "--log", *extra, threads=1)
         for threads in ((1, 2), (4, 1), (3, 3)):
             check_restart(bench, scene, 40, whole, extra, threads)
@@ -195,8 +207,8 @@ def kill(bench, options):
 
 def same_bits(bench, options):
     comparisons = 0
-    for scene in ("default", "implicit", "paper", "paper_local", "periodic"):
-        size = ("--size", 4 if scene != "implicit" else 2, "--to-step", 40)
+    for scene in ("default", "implicit", "paper", "paper_local", "periodic", "sleep"):
+        size = ("--size", 4 if scene not in ("implicit", "sleep") else 2, "--to-step", 40)
         one = bench.run(scene, *size, "--threads", 1)[-1]
         for threads in (2, 3, 4):
             require(bench.run(scene, *size, "--threads", threads)[-1] == one, f"{scene}: {threads} threads differ from one")
