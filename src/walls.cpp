@@ -346,7 +346,8 @@ void Walls::face_facets(const Particles &particles) {
     if (!chains_.any())
         return;
     for (Contact &contact : contacts)
-        contact.facet = facet_before(contact, Vector(particles.x[contact.particle], particles.y[contact.particle]));
+        contact.facet =
+            facing(contact.listed_facet, Vector(particles.x[contact.particle], particles.y[contact.particle]));
 }
 
 int64_t Walls::contact_of(int64_t i, int64_t ghost) const {

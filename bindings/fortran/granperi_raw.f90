@@ -51,8 +51,8 @@ module granperi_raw
         !! tau = eta_r D of [1] 3.6, explicit: no yield, creep at rest
     integer(c_int32_t), parameter :: GP_STRESS_IMPLICIT = 2
         !! tau = eta_r dev D, solved for the velocity at the end of the step: no yield either, but a creep in proportion
-        !! to delta and no limit on the time step. The check on the first: 10 (delta = 1e-2) to 100 times (1e-6) its
-        !! work
+        !! to delta and no limit on the time step. The check on the first: 14 (delta = 1e-2) to 86 times (1e-6) its work
+        !! in docs/stability.md
 
     !> How the density is found.
     integer(c_int32_t), parameter :: GP_DENSITY_CONTINUITY = 0 !! D rho / Dt = -rho div u
@@ -133,7 +133,7 @@ module granperi_raw
             !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
             !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
         integer(c_int64_t) :: sleep
-            !! 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in every step. Only
+            !! 1: what rests is left out of the work (gp_step, "Sleep"); 0: all material is computed in every step. Only
             !! with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0]
     end type
 
@@ -316,8 +316,9 @@ module granperi_raw
             !! eta_r D, whose trace is not 0
         type(c_ptr) :: shear_rate !! 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3)
         type(c_ptr) :: inertial_number
-            !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where p = 0. Friction goes
-            !! by a mean of the pressure over 100 dl / c0 (default scheme)
+            !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where p = 0. In the
+            !! default scheme the material's friction goes by a mean of the pressure over 100 dl / c0, not that of
+            !! plates, nor with nonlocal_amplitude
         type(c_ptr) :: viscosity !! Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6)
         type(c_ptr) :: number_density
             !! N = sum of w over the neighbours within interaction_radius ([1] 2.4); with GP_DENSITY_NUMBER the scheme's
@@ -923,13 +924,13 @@ module granperi_raw
         !> <path>.part-<process>-<number>, synced and renamed: whatever happens, path is the new checkpoint or the one
         !> before. A program that is killed may leave the part, to be deleted. After GP_E_IO (disk full, no such
         !> directory, ...) the old file is there as before, and the simulation can go on or be saved elsewhere. The file
-        !> has about 133 bytes per particle (125 where mu_2 = mu_s), and 32 more for those of gp_add_particles; it takes
-        !> no memory to speak of. gp_load refuses a file that is cut off, damaged (the file has a checksum) or not a
-        !> checkpoint: GP_E_IO; one in another format, as those of 0.1 are: GP_E_VERSION; *sim is then NULL. A
-        !> checkpoint is for the version of the library that wrote it; another one may load it, if it has the format,
-        !> but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5. C has one name space
-        !> for types and functions, and gp_load is also the type above: hence a macro over the function gp_load_file
-        !> (binaries also export it as gp_load).
+        !> has about 133 bytes per particle (125 where mu_2 = mu_s), 96 more with sleep = 1, and 32 more for those of
+        !> gp_add_particles; it takes no memory to speak of. gp_load refuses a file that is cut off, damaged (the file
+        !> has a checksum) or not a checkpoint: GP_E_IO; one in another format, as those of 0.1 are: GP_E_VERSION; *sim
+        !> is then NULL. A checkpoint is for the version of the library that wrote it; another one may load it, if it
+        !> has the format, but with other bits from there on. Both are GP_E_UNSUPPORTED in a build without HDF5. C has
+        !> one name space for types and functions, and gp_load is also the type above: hence a macro over the function
+        !> gp_load_file (binaries also export it as gp_load).
         function gp_save(sim, path) bind(c, name="gp_save") result(answer)
             import
             type(c_ptr), value :: sim

@@ -106,8 +106,9 @@ module granperi_types
         real(c_double), pointer, contiguous :: shear_rate(:) => null()
             !! 1/s, |gamma| = sqrt(D:D / 2), D = (L + L^T)/2 ([1] 3.3)
         real(c_double), pointer, contiguous :: inertial_number(:) => null()
-            !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where p = 0. Friction goes
-            !! by a mean of the pressure over 100 dl / c0 (default scheme)
+            !! I = 2 d |gamma| / sqrt(p / rho_s) ([1] 3.4), by the pressure of this moment; 0 where p = 0. In the
+            !! default scheme the material's friction goes by a mean of the pressure over 100 dl / c0, not that of
+            !! plates, nor with nonlocal_amplitude
         real(c_double), pointer, contiguous :: viscosity(:) => null()
             !! Pa s, tau / sqrt(|gamma|^2 + delta^2), tau = sqrt(s:s / 2); or eta_r ([1] 3.6)
         real(c_double), pointer, contiguous :: number_density(:) => null()
@@ -220,7 +221,7 @@ contains
             !! a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up
             !! to this many times; 0: it is GP_E_DIVERGED at once; 0 .. 20 [0]
         integer(c_int64_t), intent(in), optional :: sleep
-            !! 1: what rests is left out of the work ("Sleep", below); 0: all material is computed in every step. Only
+            !! 1: what rests is left out of the work (gp_step, "Sleep"); 0: all material is computed in every step. Only
             !! with the default scheme, else GP_E_UNSUPPORTED; 0 .. 1 [0]
         integer(c_int32_t), intent(out), optional :: status
         character(*), intent(out), optional :: message

@@ -308,7 +308,7 @@ class Config(Parameters):
     retry_halvings: int
     """a step that diverges is taken anew from where it began in two halves, these in halves again and so on, up to this many times; 0: it is DivergedError at once; 0 .. 20 [0]"""
     sleep: int
-    """1: what rests is left out of the work ("Sleep", below); 0: all material is computed in every step. Only with the default scheme, else UnsupportedError; 0 .. 1 [0]"""
+    """1: what rests is left out of the work (gp_step, "Sleep"); 0: all material is computed in every step. Only with the default scheme, else UnsupportedError; 0 .. 1 [0]"""
 
     def __init__(
         self,
