@@ -26,8 +26,6 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common"))
 
 import aims_rows  # noqa: E402
-from batch import commit_of  # noqa: E402
-from computer import processor  # noqa: E402
 from converged import converged  # noqa: E402
 from headlines import headline  # noqa: E402
 
@@ -110,7 +108,7 @@ def figure(data: dict[str, Any], path: Path) -> None:
     fig, axes = plt.subplots(figsize=(9.2, 6.2), layout="constrained")
     best, ours, theirs, star = best_of(aims_rows.curves(data["rows"])), "#0072B2", "0.35", "#D55E00"
     axes.plot([cpu for _, cpu, _ in best], [100 * error for *_, error in best], color=ours, marker="o", ms=7, lw=3,
-              label="granperi, sleep = 1, best of horizons 3 and 4")
+              label="granperi, sleep = 1, best of horizons 2.5 to 4")
     peak, runout = converged("a125")
     for name, style in ((SAME, "-"), ("tuned", "--")):
         points = data["mpm"][name]
@@ -153,6 +151,9 @@ def main() -> int:
     options = parser.parse_args()
     data = json.loads(DATA.read_text())
     if options.measure:
+        from batch import commit_of
+        from computer import processor
+
         data["rows"] = aims_rows.measure()
         data["made"] = {"commit": commit_of(ROOT), "machine": processor(), "date": datetime.date.today().isoformat()}
         aims_rows.summed_up(data["levels"], data["rows"])

@@ -16,8 +16,9 @@ Row = dict[str, Any]
 # (scene, horizon): spacings over the width, and runs. More runs where a row stands for an aim. One side: spacings that divide
 # both sides (21 in place of 20 rounds the height by 2 %, and its run-out errs by 5.9 %).
 RUNS = {("a125", 4): {16: 24, 24: 16, 32: 8, 40: 8, 48: 6}, ("a125", 3): {16: 8, 24: 8, 32: 8, 40: 12, 48: 8, 64: 4},
-        ("a125", 2.5): {16: 8, 24: 8, 32: 8}, ("a5", 4): {10: 6, 15: 6, 20: 4}, ("a5", 3): {10: 6, 15: 6, 20: 4, 25: 6, 30: 4},
-        ("one", 4): {20: 4, 30: 4, 40: 4}, ("one", 3): {20: 4, 30: 4, 40: 4}}
+        ("a125", 3.5): {24: 8, 32: 8, 40: 12, 48: 8}, ("a125", 2.5): {16: 8, 24: 8, 32: 8}, ("a5", 4): {10: 6, 15: 6, 20: 4}, ("a5", 3): {10: 6, 15: 6, 20: 4, 25: 6, 30: 4},
+        ("a5", 3.5): {20: 4, 25: 6, 30: 4},
+        ("one", 4): {20: 4, 30: 4, 40: 4}, ("one", 3): {20: 4, 30: 4, 40: 4}, ("one", 3.5): {20: 4, 30: 4, 40: 4}}
 # Of each aim the row of each scene.
 CHOSEN = {"draft": {"a125": 16, "a5": 10, "one": 20}, "standard": {"a125": 24, "a5": 15, "one": 20},
           "fine": {"a125": 40, "a5": 25, "one": 30}}
