@@ -15,10 +15,11 @@ from ._plate import Plate
 from ._probe import Probe
 from ._report import report
 from ._report_result import Recommendation, Report, Row
-from ._result import Result, Snapshot
+from ._result import Result
 from ._scene import Run, Scene, SceneError
 from ._settings import Settings, settings
 from ._simulation import Simulation
+from ._snapshot import Snapshot
 from ._state import Clock, History, Load, Plan, PlanEntry, State
 from ._sweep import Sweep, sweep
 from ._views import FieldView, Particles, View

@@ -10,8 +10,9 @@ import numpy as np
 
 from ._drawing import STYLE, bounds_of, colour_bar, colours_of, draw_particles, drawable, plt, scene_axes, surface_line, time_text
 from ._errors import ArgumentError, ArgumentTypeError
-from ._result import LiveSnapshot, Result, Snapshot
+from ._result import Result
 from ._simulation import Simulation
+from ._snapshot import LiveSnapshot, Snapshot
 
 
 def _writer(path: str, fps: int):

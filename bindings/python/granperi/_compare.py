@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from ._errors import ArgumentError
-from ._result import Result, Snapshot, snapshot
+from ._result import Result, snapshot
+from ._snapshot import Snapshot
 
 
 @dataclasses.dataclass(frozen=True)

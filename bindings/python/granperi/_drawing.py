@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ._result import Snapshot
+from ._snapshot import Snapshot
 
 try:
     import matplotlib.pyplot as plt

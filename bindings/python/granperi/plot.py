@@ -15,8 +15,10 @@ import numpy as np
 from ._animation import animate
 from ._drawing import (LABELS, MOST_ENTRIES, SMALL, Axes, ListedColormap, Normalize, bounds_of, colour_bar, colours_of, curve_axes,
                        draw_particles, draw_plates, few_ticks, legend_above, plt, scene_axes, surface_line, time_text)
+from ._derived import DERIVED
 from ._errors import ArgumentError
-from ._result import DERIVED, Snapshot, history, snapshot
+from ._result import history, snapshot
+from ._snapshot import Snapshot
 
 __all__ = ["animate", "compare", "energy", "field", "fronts", "interface", "surface"]
 
