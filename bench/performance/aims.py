@@ -154,7 +154,7 @@ def main() -> int:
         from batch import commit_of
         from computer import processor
 
-        data["rows"] = aims_rows.measure()
+        data["rows"] = aims_rows.measure(data["levels"])
         data["made"] = {"commit": commit_of(ROOT), "machine": processor(), "date": datetime.date.today().isoformat()}
         aims_rows.summed_up(data["levels"], data["rows"])
         for name, of in data["levels"].items():

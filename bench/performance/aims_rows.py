@@ -32,7 +32,12 @@ REPEATED = {(4, 16): ("width_16", ("cpu", "peak")), (4, 24): ("width_24", ("cpu"
 TOLD = ("standard", "fine")  # aims whose single runs other pages repeat
 
 
-def measure() -> list[Row]:
+def taken(levels: dict[str, dict[str, Any]]) -> set[tuple[str, float, int]]:
+    """Scene, horizon and spacings of the rows that stand for an aim."""
+    return {(scene, levels[name]["horizon"], n) for name, of in CHOSEN.items() for scene, n in of.items()}
+
+
+def measure(levels: dict[str, dict[str, Any]]) -> list[Row]:
     import numpy as np
 
     import settings
@@ -45,7 +50,7 @@ def measure() -> list[Row]:
             row: Row = {"scene": name, "horizon": horizon, "spacings": n, "runs": runs}
             for key in ("cpu", "cpu_to_rest"):
                 row[key] = round(float(np.median([getattr(run, key) for run in done])), 2)
-            if name == "a125" and runs > 8:
+            if name == "a125" and (name, horizon, n) in taken(levels):
                 awake = [settings.run(scene, n, seed, horizon=horizon, sleep=0) for seed in range(1, runs + 1)]
                 row["cpu_awake"] = round(float(np.median([run.cpu for run in awake])), 2)
             for what, reference in zip(WHAT, converged(name), strict=True):
@@ -95,7 +100,7 @@ def _bias(row: Row, what: str, name: str = "") -> str:
 
 def table(levels: dict[str, dict[str, Any]], rows: list[Row]) -> str:
     """All rows; \\*: that of an aim."""
-    taken = {(scene, levels[name]["horizon"], n) for name, of in CHOSEN.items() for scene, n in of.items()}
+    stars = taken(levels)
     lines = ["| column | horizon | L/dl | over the smaller side | runs | CPU s to 1 s | to rest | peak | one run | run-out | one run |",
              "|---|" + "---:|" * 10]
     for row in rows:
@@ -106,7 +111,7 @@ def table(levels: dict[str, dict[str, Any]], rows: list[Row]) -> str:
         def told(cell: str, text: str) -> str:
             return headline(names[cell], text) if cell in names else text
 
-        star = " \\*" if (row["scene"], horizon, n) in taken else ""
+        star = " \\*" if (row["scene"], horizon, n) in stars else ""
         cells = [NAMES[row["scene"]], f"{horizon}{star}", str(n), f"{n * SIDE[row['scene']]:.0f}", str(row["runs"]),
                  told("cpu", f"{row['cpu']:.2f}"), f"{row['cpu_to_rest']:.2f}", _bias(row, "peak", names.get("peak", "")),
                  told("one", _percent(row["peak"][2])), _bias(row, "runout", names.get("run_out", "")), _percent(row["runout"][2])]

@@ -16,7 +16,7 @@ EXAMPLE = "examples/c/example.[ch]"
 TRIAL = tuple(f"bench/{name}.[ch]" for name in ("stability", "limit", "follow", "marks", "roughness", "trial", "options"))
 PROGRAMS = {
     "collapse": Program("bench/stability", (*TRIAL, EXAMPLE), records=True),
-    "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),
+    "exact": Program("bench/exact", ("bench/exact*.[ch]", "bench/options.[ch]"), refuses=True),
     "step": Program("bench/step", ("bench/step.c", "bench/options.[ch]", EXAMPLE)),
     "features": Program("bench/features", ("bench/features.c", "bench/options.[ch]", EXAMPLE)),
     "instructions": Program(

@@ -32,7 +32,7 @@ PROGRAMS = {
         records=True,
     ),
     "couette": Program("examples/c/couette", ("examples/c/couette.c", "examples/c/example.[ch]")),
-    "exact": Program("bench/exact", ("bench/exact*.[ch]",), refuses=True),
+    "exact": Program("bench/exact", ("bench/exact*.[ch]", "bench/options.[ch]"), refuses=True),
     "collapse": COLLAPSE,
     "walls": WALLS,
     "fluidity": FLUIDITY,
