@@ -46,8 +46,8 @@ void add_material(std::string &text, const gp_material &m) {
 }
 
 void add_plate(std::string &text, const PlateSpec &p) {
-    static_assert(sizeof(gp_plate) ==
-                  192); // one that grows does not compile: checkpoints and this need its new numbers
+    // A plate that grows does not compile here: this and checkpoints need its new numbers.
+    static_assert(sizeof(gp_plate) == 192);
     Object object(text);
     if (p.points.size() == 2) {
         object.value("x0", p.points[0].x());

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "../support/ensemble.hpp"
+#include "../support/layer.hpp"
 #include "../support/scene.hpp"
 
 using namespace test;
@@ -178,8 +179,8 @@ TEST(Paper, FrictionOfARoughPlateIsOfTheMeanRate) {
         c.friction_factor = 1;
         c.periodic_x_max = columns * c.spacing;
         Sim sim(c);
-        gp_material beads;
-        ASSERT_EQ(gp_material_init(&beads, sizeof beads), GP_OK);
+        const Law beads;
+        const double grain_density = 2500;        // kg/m3
         const double shear = 100, dl = c.spacing; // 1/s; I about its I0
         std::vector<double> x, y, u, v;
         for (int k = 0; k < columns * rows; ++k) {
@@ -201,8 +202,8 @@ TEST(Paper, FrictionOfARoughPlateIsOfTheMeanRate) {
             for (std::size_t i = 0; i < p.size(); ++i)
                 if (height[i] < dl && p[i] > 0) {
                     const double rate = speed[i] / height[i],
-                                 inertial = beads.grain_diameter * rate / std::sqrt(p[i] / beads.grain_density);
-                    ratio += p[i] * (beads.mu_s + (beads.mu_2 - beads.mu_s) * inertial / (inertial + beads.i0));
+                                 inertial = beads.d * rate / std::sqrt(p[i] / grain_density);
+                    ratio += p[i] * beads.mu(inertial);
                     pressing += p[i];
                 }
             sim.step();
