@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import hashlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -35,11 +36,15 @@ def source_hash(root: Path, program: Program) -> str:
 
 
 def commit_of(root: Path) -> str:
-    """Of the working tree; with a plus sign if it has changes. Empty outside a repository."""
-    described = subprocess.run(
-        ["git", "describe", "--always", "--dirty=+"], cwd=root, capture_output=True, text=True, check=False
-    )
-    return described.stdout.strip()
+    """Of the working tree; with a plus sign if it has changes, but in docs: reports write these. Empty outside a repository."""
+    if not shutil.which("git"):
+        return ""
+
+    def git(*arguments: str) -> str:
+        return subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True, check=False).stdout.strip()
+
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/", ":(top,exclude)docs")
+    return git("describe", "--always") + ("+" if changed else "")
 
 
 def execute(run: Run, program: Program, build: Path) -> dict[str, Any]:

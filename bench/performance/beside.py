@@ -1,5 +1,5 @@
-"""The first paragraphs of docs/performance.md: where other codes are ahead, where this one is, and what the machines decide. From the
-results, aims.json and peers.py; nothing of it is typed in."""
+"""Beside other codes: the first paragraph of docs/performance.md, where they are ahead and where this one is, and further down what the
+machines may decide. From the results, aims.json and peers.py; nothing of it is typed in."""
 from __future__ import annotations
 
 import functools
@@ -170,24 +170,40 @@ def _rates(results: Collection) -> list[Claim]:
     return _joined(claims, f"in a CPU second we move {own:.1f} million particles by a step (ten thousand in flow), ")
 
 
-def lead(results: Collection) -> str:
-    """Up to three paragraphs, and one on the machines; nothing without results."""
+def _parts(results: Collection) -> dict[str, str]:
+    """What is claimed, by who is ahead; nothing without results."""
     claims = [*_same_spacing(results), *_same_error(results), *_memory(results), *_rates(results)]
-    if not claims:
+    return {side: "; ".join(claim.text for claim in claims if claim.ahead == side) for side in SIDES} if claims else {}
+
+
+def lead(results: Collection) -> str:
+    """The first paragraph."""
+    parts = _parts(results)
+    if not parts:
         return ""
-    parts = {side: "; ".join(claim.text for claim in claims if claim.ahead == side) for side in SIDES}
-    lines = [f"**Where other codes are ahead:** {parts['theirs'] or 'in nothing that is measured here'}."]
+    text = f"**Where other codes are ahead:** {parts['theirs'] or 'in nothing that is measured here'}."
     if parts["ours"]:
-        lines.append(f"**Where this one is:** {parts['ours']}.")
-    if parts["open"]:
-        lines.append(f"**Where the machines may decide:** {parts['open']}.")
+        text += f" **Where this one is:** {parts['ours']}."
+    return f"{text} All else is within what machines differ by: [Other codes](#other-codes)." if parts["open"] else text
+
+
+def machines(results: Collection) -> str:
+    """What the machines may decide, and why."""
+    parts = _parts(results)
+    if not parts:
+        return ""
     ratios, ref = slower(), measures.reference(results, "a1.25")
-    lines.append(
+    text = (
         f"Other codes' CPU times are not of the machine that ours are of: Matter's are of two others, {_mpm()['machine']}, and "
         f"{ANOTHER_MACHINE}, on which the same runs took {fixed(min(ratios), 1)} to {fixed(max(ratios), 1)} times as long; all "
         f"others' are of the second one. So a factor of two between codes is within what the machines differ by, and we are said to be "
         f"ahead only beyond {fixed(max(ratios), 1)}."
-        + (f" Above, errors are counted from each code's own finest run (Matter: L/dl = {_mpm()[SAME][-1][0]}, ours: {ref.resolution}), "
-           "and Matter's times to err by so much are of the first machine." if ref else "")
-    )  # fmt: skip
-    return "\n\n".join(lines)
+    )
+    if parts["open"]:
+        text += f"\n\n**Where the machines may decide:** {parts['open']}."
+        if ref:
+            text += (
+                f" Errors are counted from each code's own finest run (Matter: L/dl = {_mpm()[SAME][-1][0]}, ours: {ref.resolution}), "
+                "and Matter's times to err by so much are of the first machine."
+            )
+    return text

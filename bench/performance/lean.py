@@ -24,7 +24,7 @@ def machine(results: Collection) -> str:
         f"L{k} {found.summary[f'cache_{k}'] / 1024:.0f} KiB" for k in (1, 2, 3) if f"cache_{k}" in found.summary
     )
     return (
-        f"Machine: {said.get('processor', 'unknown')}, {found.summary['cores']:.0f} cores ({caches}); "
+        f"Machine: {said.get('processor', 'unknown')}, {found.summary['cores']:.0f} cores ({caches or 'caches unknown'}); "
         f"{said.get('compiler', 'unknown')}; load {found.summary['load']:.1f} when the runs began."
     )
 

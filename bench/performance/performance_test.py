@@ -3,7 +3,11 @@ holds it. Nothing here asserts a time."""
 from __future__ import annotations
 
 import math
+import re
+import shutil
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -15,6 +19,7 @@ import numpy as np
 
 import aims
 import aims_rows
+import batch
 import beside
 import measures
 import peers
@@ -60,7 +65,7 @@ def check_collapse(coarse: results.Result, fine: results.Result, collection: res
 
 
 def check_lead(collection: results.Collection) -> None:
-    """Where others are ahead comes first, what the machines may decide is nobody's, and the machines come last."""
+    """Where others are ahead comes first; what the machines may decide is nobody's, and stands further down."""
     assert set(peers.second_machine()) >= {32, 64, 128}
     for match in beside.MATCHES:
         costs, errors = beside.mpm_curve(match)
@@ -73,10 +78,12 @@ def check_lead(collection: results.Collection) -> None:
     own = beside._rates
     beside._rates = lambda _: [beside.Claim(side, least, most) for side, least, most in cases]
     try:
-        theirs, ours, undecided, said = beside.lead(collection).split("\n\n")
+        lead, (said, undecided) = beside.lead(collection), beside.machines(collection).split("\n\n")
     finally:
         beside._rates = own
-    assert theirs.startswith("**Where other codes are ahead:**") and "theirs" in theirs and "ours" in ours and "open" in undecided
+    theirs, ours = lead.split("**Where this one is:**")
+    assert theirs.startswith("**Where other codes are ahead:**") and "theirs" in theirs and "ours" in ours
+    assert "\n" not in lead and "open" not in lead and "open" in undecided
     assert "times as long" in said
     told = beside.caption(collection)
     assert "sleep = 1" in told and "off by" in told
@@ -97,9 +104,33 @@ def check_coulomb(idle: results.Result, used: results.Result) -> None:
     assert not any(name.startswith("stage_") for name in used.summary)
 
 
+def check_commit(directory: Path) -> None:
+    """Pages do not make the sources others, programs do."""
+    def git(*arguments: str) -> None:
+        subprocess.run(["git", "-c", "user.name=me", "-c", "user.email=me@here", *arguments], cwd=directory, check=True, capture_output=True)
+
+    assert batch.commit_of(directory) == ""
+    for name in ("docs/page.md", "bench/deep/program.py"):
+        path = directory / name
+        path.parent.mkdir(parents=True)
+        path.write_text("old")
+    git("init")
+    git("add", ".")
+    git("commit", "-m", "all")
+    clean = batch.commit_of(directory)
+    assert re.fullmatch("[0-9a-f]{7,}", clean), clean
+    (directory / "docs/page.md").write_text("new")
+    assert batch.commit_of(directory) == batch.commit_of(directory / "bench/deep") == clean
+    path.write_text("new")
+    assert batch.commit_of(directory) == batch.commit_of(directory / "bench/deep") == clean + "+"
+
+
 def main() -> None:
     place = Workplace.asked_for(HERE, __doc__)
     check_measures()
+    if shutil.which("git"):
+        with tempfile.TemporaryDirectory() as directory:
+            check_commit(Path(directory))
 
     coarse, fine = runs.collapse("a1.25", 8), runs.collapse("a1.25", 16)
     idle, used = runs.feature("coulomb", "idle"), runs.feature("coulomb")

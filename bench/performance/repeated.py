@@ -11,7 +11,7 @@ from results import Collection
 
 
 def rows(results: Collection) -> list[tuple[str, str, str]]:
-    found = [*_rates(results), *_memory(results), *_refinement(results), *_converged(results), *_mpm()]
+    found = [*_rates(results), *_memory(results), *_refinement(results), *_converged(results), *_exact(results), *_mpm()]
     minutes = sum(result.cpu for result in results.found.values()) / 60
     return [(f"performance.{name}", what, text) for name, what, text in found] + [
         ("performance.cpu_minutes", "CPU minutes of all runs", fixed(minutes, 0))
@@ -38,10 +38,11 @@ def _rates(results: Collection) -> list[tuple[str, str, str]]:
 
 
 def _memory(results: Collection) -> list[tuple[str, str, str]]:
-    rest, flow = results(runs.growth(runs.GROWTH[-1])), results(runs.flow(126))
+    rest, small, flow = results(runs.growth(runs.GROWTH[-1])), results(runs.growth(400)), results(runs.flow(126))
     return [
         ("particles_most", "largest scene: million particles", fixed(rest.summary["particles"] / 1e6 if rest else None, 0)),
         ("bytes.large", "bytes per particle in it, of the library", fixed(rest.summary["bytes"] if rest else None, 0)),
+        ("bytes.rest", "with 100 000 particles at rest", fixed(small.summary["bytes"] if small else None, 0)),
         ("bytes.flow", "with 10 000 particles in flow", fixed(flow.summary["bytes"] if flow else None, 0)),
     ]
 
@@ -65,6 +66,15 @@ def _converged(results: Collection) -> list[tuple[str, str, str]]:
         peak = ref.value["peak"] / scene.length if ref else None
         found += [(f"converged.{name}_peak", f"{scene.label}, finest: peak y/L", fixed(peak, 3)),
                   (f"converged.{name}_bulk", "run-out of 90 % of the mass", fixed(ref.value["bulk"] if ref else None, 3))]
+    return found
+
+
+def _exact(results: Collection) -> list[tuple[str, str, str]]:
+    found = []
+    for n in (10, 20):
+        result = results(runs.exact("hydrostatic", n))
+        error = f"{100 * result.summary['error']:.1f} %" if result else NONE
+        found.append((f"hydrostatic.rows_{n}", f"layer of {n} rows at rest, default scheme: error of the pressure, of that at the base", error))
     return found
 
 

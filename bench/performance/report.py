@@ -72,6 +72,8 @@ so that they say how far the codes are apart, not who is right; their front is c
 
 {sections.peers(collection)}
 
+{beside.machines(collection)}
+
 Throughput of public particle codes ([peers.py](../bench/performance/peers.py)), one thread, machines as above:
 
 {sections.throughput(collection)}

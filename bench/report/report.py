@@ -187,14 +187,11 @@ def text(drawn: list[coverage.Drawn], later: list[coverage.Drawn], rows: list[di
     choice_table, left_out_table = choices(values, fewer)
     return f"""# How often the errors of a report hold
 
-The stated error of the mean holds in **{share(held)}** of {len(drawn)} reports ({n_cases} cases), and is at most three times the true one in
-**{share(narrow)}** (median {median:.1f} times). It is what `granperi.report` says that a run of a scene errs by, from runs of that scene alone
-([How sure is my result?](guide/report.md)).
-
-- In four more scenes, {n_later} cases, run after bounds and shares had been chosen, it holds in **{headline('report.later.held', share(held_later))}**, and is at most
-  three times the true one in **{headline('report.later.narrow', share(narrow_later))}**.
-- The CPU time of a run up to twice as fine as the finest of the report is forecast within 30 % in **{within} of {of}** cases (the
-  worst is off by {headline('report.cost.worst', share(worst))}).
+`granperi.report` states what a run of a scene errs by, from runs of that scene alone ([How sure is my result?](guide/report.md)). The
+stated error of the mean holds in **{headline('report.held', share(held))}** of {len(drawn)} reports ({headline('report.cases', str(n_cases))} cases), and is at most three times
+the true one in **{headline('report.narrow', share(narrow))}** (median {median:.1f} times); in four more scenes, {n_later} cases, to which nothing was tuned,
+in **{headline('report.later.held', share(held_later))}** and **{headline('report.later.narrow', share(narrow_later))}**. The CPU time of a run up to twice as fine as the finest of the report is
+forecast within 30 % in **{within} of {of}** cases (the worst is off by {headline('report.cost.worst', share(worst))}).
 
 ![Stated against true error of the mean, one dot per report. Above the line it holds; in the grey band it is at most three times too wide](images/report_coverage.png)
 

@@ -90,7 +90,7 @@ Against the finest, L/dl = {runs.FINEST}, with the default of 4.
 
 {deposit.horizons(collection)}
 
-The cheaper horizon of 3 is not the default. By the sources of commit 6fbe2c5 (November 2026; not measured by this report) with it a
+A horizon of 3, which costs as much at the same spacing, is not the default. By the sources of commit 6fbe2c5 (November 2026; not measured by this report) with it a
 drum and bowls of 24 and 96 plates did not come to rest, few grains that met or fell on a floor gained energy, a layer of ten rows on
 26° was 3 % slow, and more than twice as much of a front on 16° came off.
 

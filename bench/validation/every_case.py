@@ -62,7 +62,7 @@ def speed_of_two() -> Case:
     page = "docs/guide/mpi.md"
     text = headlines.Pages({page: (ROOT / page).read_text(encoding="utf-8")}).numbers["mpi.two_processes"].text
     return Case(
-        "collapse of 40 000 particles on two processes: speed over that on one",
+        "collapse of 40 000 particles on two processes: speed over that of the library without MPI",
         f"≥ {2 * EFFICIENCY:g}",
         text,
         (1 - float(text) / 2) / (1 - EFFICIENCY),

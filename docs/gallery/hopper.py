@@ -1,6 +1,6 @@
 """A hopper empties
 
-Each side of bin and funnel is one line of three points. The flow out of the outlet follows Beverloo's scale (docs/validation.md).
+Each side of bin and funnel is one line of three points. docs/validation.md sets the flow out of the outlet beside Beverloo's scale.
 """
 import numpy as np
 

@@ -77,9 +77,9 @@ class _Level:
 
 # aims: written by bench/performance/aims.py
 _LEVELS = {
-    "draft": _Level(10, 4.0, 1, 0.10, 0.0660, 0.0892, 0.12),
-    "standard": _Level(15, 4.0, 1, 0.05, 0.0376, 0.0371, 0.32),
-    "fine": _Level(25, 3.5, 1, 0.02, 0.0156, 0.0172, 1.05),
+    "draft": _Level(10, 4.0, 1, 0.10, 0.0647, 0.0875, 0.10),
+    "standard": _Level(15, 4.0, 1, 0.05, 0.0376, 0.0354, 0.26),
+    "fine": _Level(25, 3.5, 1, 0.02, 0.0156, 0.0146, 1.04),
 }
 # /aims
 
