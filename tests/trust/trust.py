@@ -259,7 +259,7 @@ def golden(bench, options):
         if levels() != LEVELS:
             sys.exit(f"this processor has {', '.join(levels())} alone: the table is of {', '.join(LEVELS)}")
         with open(options.table, "w") as file:
-            file.write("# Bits of all particles after 30 steps of each scene of host.cpp, by instruction set. Written by\n"
+            file.write("# Bits of all particles after 30 steps of each scene of host_scenes.cpp, by instruction set. Written by\n"
                        "# scripts/trust golden --update\n")
             for (level, scene), bits in sorted(found.items()):
                 file.write(f"{level} {scene} {bits}\n")
