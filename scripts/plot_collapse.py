@@ -5,7 +5,6 @@ Positions, speeds and the peak come from the HDF5 file of examples/c/both_side.c
 times of computation from the summary that the program prints.
 """
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -18,16 +17,13 @@ import matplotlib.pyplot as plt
 from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Rectangle
 
-BENCH = Path(__file__).resolve().parents[1] / "bench"
-sys.path.insert(0, str(BENCH / "validation"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench" / "performance"))
 
-import references
+from peers import matter_run_outs
+from references import CODES_PEAK_BAND, EXPERIMENT_PEAK  # y/L at PEAK_TIME
 
 TIMES = (0.12, 0.22, 0.42, 1.0)  # s
 PEAK_TIME = 0.42  # s
-EXPERIMENT_PEAK, CODES_PEAKS = references.EXPERIMENT_PEAK, references.CODES_PEAK_BAND  # y/L at PEAK_TIME
-MPM = json.loads((BENCH / "performance" / "aims.json").read_text(encoding="utf-8"))["mpm"]
-CODES_RUN_OUTS = [run_out for runs in MPM.values() if isinstance(runs, list) for *_, run_out in runs]  # 90 % of the mass
 
 
 class Frames:
@@ -186,12 +182,12 @@ def table(frames, summary):
     peak = frames.state("peak_height", frames.at(PEAK_TIME)) / frames.width
     rows = [("peak y/L at 0.42 s", f"{peak:.3f}",
              f"experiment {EXPERIMENT_PEAK} ({100 * (peak / EXPERIMENT_PEAK - 1):+.1f} %; Xu et al. 2017 in Jin et al. 2021)"),
-            ("", "", f"MPM and VOF codes with instant release {span(CODES_PEAKS)}")]
+            ("", "", f"MPM and VOF codes with instant release {span(CODES_PEAK_BAND)}")]
     if not summary:
         return rows
     rows += [
         ("run-out, 90 % of the mass", f"{run_out(frames):.2f}", f"(x - L0)/L0 at {summary['time']:g} s, L0 = L/2"),
-        ("", "", f"MPM code with the same law, instant release {span(CODES_RUN_OUTS)}"),
+        ("", "", f"MPM code with the same law, instant release {span(matter_run_outs())}"),
         ("error of the energy ledger", f"{summary['energy_error_share']:.3f} %", "of the initial energy E0"),
         ("kinetic energy / E0", f"{summary['kinetic'] / summary['energy_initial']:.1e}", f"at {summary['time']:g} s"),
         ("at rest", "yes" if summary["at_rest"] else "no",

@@ -103,7 +103,7 @@ def table(levels: dict[str, dict[str, Any]], rows: list[Row]) -> str:
     stars = taken(levels)
     lines = ["| column | horizon | L/dl | over the smaller side | runs | CPU s to 1 s | to rest | peak | one run | run-out | one run |",
              "|---|" + "---:|" * 10]
-    for row in rows:
+    for row in sorted(rows, key=lambda row: (list(NAMES).index(row["scene"]), -row["horizon"], row["spacings"])):
         n, horizon = row["spacings"], row["horizon"]
         name, cells = REPEATED.get((horizon, n), ("", ())) if row["scene"] == "a125" else ("", ())
         names = {cell: f"settings.{name}.{cell}" for cell in cells}

@@ -2,17 +2,14 @@
 machines may decide. From the results, aims.json and peers.py; nothing of it is typed in."""
 from __future__ import annotations
 
-import functools
-import json
 import math
 from dataclasses import dataclass
 
-import aims
 import measures
 import runs
 from markdown import fixed
 from measures import Reference
-from peers import ANOTHER_MACHINE, MEMORY, SAME, THROUGHPUT, second_machine
+from peers import ANOTHER_MACHINE, MEMORY, SAME, THROUGHPUT, matter, second_machine
 from results import Collection
 from sections import percent, seconds
 
@@ -38,26 +35,21 @@ class Claim:
         return "ours" if self.least > (max(slower()) if self.timed else 1) else "open"
 
 
-@functools.lru_cache(maxsize=1)
-def _mpm() -> dict:
-    return json.loads(aims.DATA.read_text(encoding="utf-8"))["mpm"]
-
-
 def slower() -> list[float]:
     """How much longer the same runs took on the second machine than on the first."""
-    return [second_machine()[n] / cpu for n, cpu, *_ in _mpm()[SAME] if n in second_machine()]
+    return [second_machine()[n] / cpu for n, cpu, *_ in matter()[SAME] if n in second_machine()]
 
 
 def _same_spacing(results: Collection) -> list[Claim]:
     """Same law, spacing, sound speed; no setting is tuned on either side."""
     ratios = []
-    for n, cpu, *_ in _mpm()[SAME]:
+    for n, cpu, *_ in matter()[SAME]:
         own = results(runs.collapse("a1.25", n))
         if own:
             ratios += [measures.cost(own) / of_mpm for of_mpm in (cpu, second_machine().get(n)) if of_mpm]
     if not ratios:
         return []
-    sizes = ", ".join(f"{n}" for n, *_ in _mpm()[SAME])
+    sizes = ", ".join(f"{n}" for n, *_ in matter()[SAME])
     return [Claim(f"at the same spacing (L/dl = {sizes}) and sound speed (10 m/s in both) our default scheme takes "
                   f"{fixed(min(ratios), 1)} to {fixed(max(ratios), 1)} times the CPU time of the explicit MPM code Matter, by which of "
                   "two machines that ran on", 1 / max(ratios), 1 / min(ratios))]  # fmt: skip
@@ -81,7 +73,7 @@ MATCHES = (
 
 def mpm_curve(match: Match) -> tuple[list[float], list[float]]:
     """CPU s and errors of single runs, the largest of the quantities, against its own finest run."""
-    *coarser, finest = [(cpu, {"peak": peak, "bulk": bulk}) for _, cpu, peak, bulk in _mpm()[match.mpm]]
+    *coarser, finest = [(cpu, {"peak": peak, "bulk": bulk}) for _, cpu, peak, bulk in matter()[match.mpm]]
     errors = [max(abs(value[q] / finest[1][q] - 1) for q in match.quantities) for _, value in coarser]
     return [cpu for cpu, _ in coarser], errors
 
@@ -138,7 +130,7 @@ def caption(results: Collection) -> str:
     )
     ref = measures.reference(results, "a1.25")
     if ref:
-        (*_, peak, bulk), (*_, tuned) = _mpm()[SAME][-1], _mpm()["tuned"][-1]
+        (*_, peak, bulk), (*_, tuned) = matter()[SAME][-1], matter()["tuned"][-1]
         unit = runs.SCENES["a1.25"].length
         pairs = ((peak, ref.value["peak"] / unit), (bulk, ref.value["bulk"]), (tuned, ref.value["bulk"]))
         off = [percent(value / of - 1) for value, of in pairs]
@@ -194,7 +186,7 @@ def machines(results: Collection) -> str:
         return ""
     ratios, ref = slower(), measures.reference(results, "a1.25")
     text = (
-        f"Other codes' CPU times are not of the machine that ours are of: Matter's are of two others, {_mpm()['machine']}, and "
+        f"Other codes' CPU times are not of the machine that ours are of: Matter's are of two others, {matter()['machine']}, and "
         f"{ANOTHER_MACHINE}, on which the same runs took {fixed(min(ratios), 1)} to {fixed(max(ratios), 1)} times as long; all "
         f"others' are of the second one. So a factor of two between codes is within what the machines differ by, and we are said to be "
         f"ahead only beyond {fixed(max(ratios), 1)}."
@@ -203,7 +195,7 @@ def machines(results: Collection) -> str:
         text += f"\n\n**Where the machines may decide:** {parts['open']}."
         if ref:
             text += (
-                f" Errors are counted from each code's own finest run (Matter: L/dl = {_mpm()[SAME][-1][0]}, ours: {ref.resolution}), "
+                f" Errors are counted from each code's own finest run (Matter: L/dl = {matter()[SAME][-1][0]}, ours: {ref.resolution}), "
                 "and Matter's times to err by so much are of the first machine."
             )
     return text

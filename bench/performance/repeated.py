@@ -1,12 +1,10 @@
 """The numbers of docs/performance.md that README and the guide repeat: (name, what it is, number)."""
 from __future__ import annotations
 
-import json
-
-import aims
 import measures
 import runs
 from markdown import NONE, fixed
+from peers import matter_run_outs
 from results import Collection
 
 
@@ -38,11 +36,11 @@ def _rates(results: Collection) -> list[tuple[str, str, str]]:
 
 
 def _memory(results: Collection) -> list[tuple[str, str, str]]:
-    rest, small, flow = results(runs.growth(runs.GROWTH[-1])), results(runs.growth(400)), results(runs.flow(126))
+    largest, rest, flow = results(runs.growth(runs.GROWTH[-1])), results(runs.growth(400)), results(runs.flow(126))
     return [
-        ("particles_most", "largest scene: million particles", fixed(rest.summary["particles"] / 1e6 if rest else None, 0)),
-        ("bytes.large", "bytes per particle in it, of the library", fixed(rest.summary["bytes"] if rest else None, 0)),
-        ("bytes.rest", "with 100 000 particles at rest", fixed(small.summary["bytes"] if small else None, 0)),
+        ("particles_most", "largest scene: million particles", fixed(largest.summary["particles"] / 1e6 if largest else None, 0)),
+        ("bytes.large", "bytes per particle in it, of the library", fixed(largest.summary["bytes"] if largest else None, 0)),
+        ("bytes.rest", "with 100 000 particles at rest", fixed(rest.summary["bytes"] if rest else None, 0)),
         ("bytes.flow", "with 10 000 particles in flow", fixed(flow.summary["bytes"] if flow else None, 0)),
     ]
 
@@ -80,8 +78,7 @@ def _exact(results: Collection) -> list[tuple[str, str, str]]:
 
 def _mpm() -> list[tuple[str, str, str]]:
     """Of the runs beside us in the figure."""
-    mpm = json.loads(aims.DATA.read_text(encoding="utf-8"))["mpm"]
-    least, most = _ends([run_out for curve in ("c = 10 m/s", "tuned") for *_, run_out in mpm[curve]], 2)
+    least, most = _ends(matter_run_outs(), 2)
     return [
         ("mpm.bulk_least", "run-out of 90 % of the mass, explicit MPM with the same law, L/dl = 32 to 128: least", least),
         ("mpm.bulk_most", "most", most),

@@ -366,5 +366,5 @@ def _neighbours(results: Collection) -> list[str]:
     return [
         f"{per:.1f} ns per neighbour and step ({result.summary['particles']:.0f} particles in flow, horizon 4; median of "
         f"{runs.REPEAT} measurements, the least {least:.1f}); SPH and peridynamic codes took {low:g} to {high:g} on another "
-        f"machine (see the head of this page): {low / per:.1f} to {high / per:.1f} times as much."
+        f"machine ([other codes](#other-codes)): {low / per:.1f} to {high / per:.1f} times as much."
     ]

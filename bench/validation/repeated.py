@@ -95,11 +95,22 @@ def _fluidity(results: Collection) -> list[tuple[str, str, str]]:
         lid = results(fluid_runs.couette(n))
         error = percent(lid.summary["stress"], lid.summary["stress_exact"]) if lid else NONE
         found.append((f"fluidity.stress_{name}", f"granular fluidity, spacing {spacing}: error of the stress of a lid", error))
+    return found + _fluid_columns(results)
+
+
+def _fluid_columns(results: Collection) -> list[tuple[str, str, str]]:
+    """Collapses with fluidity beside those of the local law."""
+    def beside(n: int, key: str) -> tuple[float, float] | None:
+        fluid, local = (results(fluid_runs.collapse(n, amplitude)) for amplitude in (0.48, 0))
+        return (fluid.summary[key], local.summary[key]) if fluid and local else None
+
+    found = []
     for n in (32, 80):
-        local, fluid = (results(fluid_runs.collapse(n, amplitude)) for amplitude in (0, 0.48))
-        cost = fluid.summary["cpu_seconds"] / local.summary["cpu_seconds"] if local and fluid else None
-        found.append((f"fluidity.cost_{n}", f"collapse with fluidity, L/dl = {n}: CPU time over the local law's", fixed(cost, 1)))
+        cost = beside(n, "cpu_seconds")
+        text = fixed(cost[0] / cost[1] if cost else None, 1)
+        found.append((f"fluidity.cost_{n}", f"collapse with fluidity, L/dl = {n}: CPU time over the local law's", text))
     for name, key, what in (("peak", "peak", "peak"), ("run_out", "run_out_90", "run-out of 90 % of the mass")):
-        change = percent(fluid.summary[key], local.summary[key], 0) if local and fluid else NONE
-        found.append((f"fluidity.column_{name}", f"collapse with fluidity, L/dl = 80: {what} against the local law's", change))
+        pair = beside(80, key)
+        text = percent(*pair, 0) if pair else NONE
+        found.append((f"fluidity.column_{name}", f"collapse with fluidity, L/dl = 80: {what} against the local law's", text))
     return found
