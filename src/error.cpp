@@ -13,6 +13,7 @@ thread_local char last_error_text[1024] = "";
 
 std::string format_list(const char *format, va_list arguments) {
     char text[1024];
+    // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): who calls this has begun it
     std::vsnprintf(text, sizeof text, format, arguments);
     return text;
 }

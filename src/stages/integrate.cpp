@@ -19,7 +19,7 @@ namespace {
                                    what.c_str(), static_cast<long long>(p.id[i]), p.x[i], p.y[i], world.clock.time,
                                    static_cast<long long>(world.clock.step), world.clock.dt);
     if (!world.crossing)
-        throw error;
+        throw Error(error);
     std::array<double, 4> key{check};
     key_of_cell(world, i, 0, key.data() + 1);
     throw Divergence(error, key);
