@@ -22,7 +22,7 @@ TRIED = {
     "allocations that failed": r"(\d+) allocations failed",
     "calls, checkpoints, result files at random": r"none of (\d+) inputs",
     "tests under ThreadSanitizer": r"none in (\d+) unit and api tests under ThreadSanitizer",
-    "tests under AddressSanitizer and UBSan": r"none in (\d+) unit and api tests under AddressSanitizer",
+    "tests under AddressSanitizer and UBSan": r"none in (\d+) unit, api and extreme tests under AddressSanitizer",
     "runs in which one of several processes fails": r"(\d+) runs in which one lacks memory",
 }
 
