@@ -24,7 +24,7 @@ namespace gp {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 // Who waits looks on for so long, then sleeps: longer than the gaps between the loops of a step, shorter than what the
 // system's scheduler gives a process at a time.
@@ -61,7 +61,7 @@ void pause_processor() {
 
 // True once done() is; false when patience has run out.
 template <class Done> bool look_on(const Done &done) {
-    Clock::time_point end{};
+    SteadyClock::time_point end{};
     for (;;) {
         for (int k = 0; k < 32; ++k) {
             if (done())
@@ -69,8 +69,8 @@ template <class Done> bool look_on(const Done &done) {
             pause_processor();
         }
         // Not before: what comes at once does not wait for the clock.
-        const Clock::time_point now = Clock::now();
-        if (end == Clock::time_point{})
+        const SteadyClock::time_point now = SteadyClock::now();
+        if (end == SteadyClock::time_point{})
             end = now + patience;
         else if (now >= end)
             return done();
@@ -150,8 +150,8 @@ public:
             to_helpers_.notify_all();
         }
         const int64_t own = take_shares(work, 0);
-        const Clock::duration lost = wait_for_helpers();
-        if (lost > Clock::duration::zero())
+        const SteadyClock::duration lost = wait_for_helpers();
+        if (lost > SteadyClock::duration::zero())
             pause(pause_per_wait * lost);
         unhelped_ = own == work.blocks ? unhelped_ + 1 : 0;
         if (unhelped_ == loops_without_help) {
@@ -162,7 +162,7 @@ public:
 
 private:
     bool is_pausing() {
-        const Clock::time_point now = Clock::now();
+        const SteadyClock::time_point now = SteadyClock::now();
         if (now >= next_look_) {
             const int64_t switches = involuntary_switches();
             next_look_ = now + look_every;
@@ -171,7 +171,7 @@ private:
         }
         return now < pause_end_;
     }
-    void pause(Clock::duration length) { pause_end_ = std::max(pause_end_, Clock::now() + length); }
+    void pause(SteadyClock::duration length) { pause_end_ = std::max(pause_end_, SteadyClock::now() + length); }
 
     // Whether there are helpers; as many as wanted if the system has them.
     bool gather(int wanted) {
@@ -223,17 +223,17 @@ private:
     }
 
     // Shuts the door behind the last share. Returns for how long it had to sleep.
-    Clock::duration wait_for_helpers() {
+    SteadyClock::duration wait_for_helpers() {
         door_.fetch_and(~open);
         const auto nobody = [this] { return (door_.load() & inside) == 0; };
         if (look_on(nobody))
-            return Clock::duration::zero();
-        const Clock::time_point begin = Clock::now();
+            return SteadyClock::duration::zero();
+        const SteadyClock::time_point begin = SteadyClock::now();
         std::unique_lock<std::mutex> lock(mutex_);
         is_waiting_.store(true);
         to_owner_.wait(lock, nobody);
         is_waiting_.store(false);
-        return Clock::now() - begin;
+        return SteadyClock::now() - begin;
     }
 
     bool enter(int member) {
@@ -283,7 +283,7 @@ private:
 
     alignas(64) int unhelped_ = 0; // loops in a row
     int64_t switches_ = involuntary_switches();
-    Clock::time_point pause_end_, next_look_;
+    SteadyClock::time_point pause_end_, next_look_;
 
     std::mutex mutex_; // of those who sleep
     std::condition_variable to_helpers_, to_owner_;

@@ -36,7 +36,7 @@ namespace {
 // Of the lattice's number density: from here on all that is explained is moved.
 constexpr double full_crowding = 0.1;
 
-struct View {
+struct CollisionView {
     Clusters clusters;
     const double *x, *y, *vx, *vy;
     double distance2;
@@ -66,7 +66,7 @@ struct View {
 
 // How many partners each particle has that flows: those that do not are counted with the others, and do not collide. Returns the
 // sum.
-int64_t count_partners(const View &v, int64_t begin, int64_t end) {
+int64_t count_partners(const CollisionView &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     const Lanes one = Lanes{} + 1.0;
     int64_t sum = 0;
@@ -108,10 +108,10 @@ struct PartnersOfRow {
     int64_t entry[some];
     int32_t particle[some];
 
-    GP_INLINE PartnersOfRow(const View &v, int64_t c)
+    GP_INLINE PartnersOfRow(const CollisionView &v, int64_t c)
         : k(v.clusters.start[c]), stop(v.clusters.stop(c)), j(v.clusters.first[c]) {}
     // False at the row's end.
-    GP_INLINE bool find_some(const View &v) {
+    GP_INLINE bool find_some(const CollisionView &v) {
         if (k == stop)
             return false;
         count = 0;
@@ -126,7 +126,7 @@ struct PartnersOfRow {
 };
 
 // The velocity changes, and moves, of the particles that have partners.
-template <bool Moves> void find_pushes(const View &v, int64_t begin, int64_t end) {
+template <bool Moves> void find_pushes(const CollisionView &v, int64_t begin, int64_t end) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     for (int64_t c = begin; c < end; ++c) {
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
@@ -206,26 +206,26 @@ void collide(World &world) {
     update_images(world);
     // sigma K^-1 has done its work: its first row holds the velocity changes, its second one the moves.
     const bool moves = !world.crowded.empty();
-    const View view{Clusters(world.clusters, world.clusters.close),
-                    p.x.data(),
-                    p.y.data(),
-                    p.vx.data(),
-                    p.vy.data(),
-                    distance * distance,
-                    &world.constants,
-                    p.column.data(),
-                    world.sleep.some ? p.repose.asleep.data() : nullptr,
-                    world.colliding.data(),
-                    p.cxx.data(),
-                    p.cxy.data(),
-                    p.pressure.data(),
-                    p.lxx.data(),
-                    p.lxy.data(),
-                    p.lyx.data(),
-                    p.lyy.data(),
-                    moves ? world.crowded.data() : nullptr,
-                    p.cyx.data(),
-                    p.cyy.data()};
+    const CollisionView view{Clusters(world.clusters, world.clusters.close),
+                             p.x.data(),
+                             p.y.data(),
+                             p.vx.data(),
+                             p.vy.data(),
+                             distance * distance,
+                             &world.constants,
+                             p.column.data(),
+                             world.sleep.some ? p.repose.asleep.data() : nullptr,
+                             world.colliding.data(),
+                             p.cxx.data(),
+                             p.cxy.data(),
+                             p.pressure.data(),
+                             p.lxx.data(),
+                             p.lxy.data(),
+                             p.lyx.data(),
+                             p.lyy.data(),
+                             moves ? world.crowded.data() : nullptr,
+                             p.cyx.data(),
+                             p.cyy.data()};
     for_each_seen_cluster_block(world, [&](int64_t block, int64_t begin, int64_t end) {
         world.sums[block].collisions = count_partners(view, begin, end);
         world.sums[block].collision_loss = 0;

@@ -9,7 +9,7 @@ namespace gp::stages {
 
 namespace {
 
-struct View {
+struct ForceView {
     Clusters clusters;
     const double *x, *y, *vx, *vy, *stressed;
     const double *cxx, *cxy, *cyx, *cyy;
@@ -28,7 +28,7 @@ struct LaneForce {
 // the neighbours that L_i is made of, the penalty's power is -kappa/2 sum w |z|^2: it never drives (after Silling 2017).
 // C = A - kappa L / 2 carries both of a neighbour's tensors at once.
 template <bool Penalty, bool Partly>
-GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &places, LaneForce &force) {
+GP_INLINE void add_neighbors(const ForceView &v, int64_t cluster, const LanePlaces &places, LaneForce &force) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     const double *__restrict cxx = v.cxx, *__restrict cxy = v.cxy, *__restrict cyx = v.cyx, *__restrict cyy = v.cyy;
     const double *__restrict stressed = v.stressed;
@@ -168,7 +168,7 @@ GhostMoment contacts_of_cluster(World &world, int64_t c) {
     return moment;
 }
 
-template <bool Penalty> void force_clusters(World &world, const View &v, int64_t begin, int64_t end) {
+template <bool Penalty> void force_clusters(World &world, const ForceView &v, int64_t begin, int64_t end) {
     const bool in_reach = world.walls.in_reach();
     for (int64_t c = begin; c < end; ++c) {
         const int64_t first = v.clusters.first[c], last = v.clusters.first[c + 1];
@@ -201,9 +201,9 @@ template <class Find> void find_forces(World &world, const Find &find) {
         hand_over(p.spaced, p.ax);
         hand_over(p.known, p.ay);
     }
-    const View view{Clusters(world),   p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),
-                    p.stressed.data(), p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(),
-                    1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data(),  crowding};
+    const ForceView view{Clusters(world),   p.x.data(),   p.y.data(),   p.vx.data(),  p.vy.data(),
+                         p.stressed.data(), p.cxx.data(), p.cxy.data(), p.cyx.data(), p.cyy.data(),
+                         1.0 / c.horizon,   c.penalty,    p.ax.data(),  p.ay.data(),  crowding};
     const bool in_reach = walls.in_reach();
     const auto clusters = c.penalty > 0 ? force_clusters<true> : force_clusters<false>;
     const auto find_pairs = [&](int64_t first, int64_t last) { clusters(world, view, first, last); };

@@ -11,7 +11,7 @@ namespace gp::stages {
 
 namespace {
 
-struct View {
+struct GradientView {
     Rows rows;
     Clusters clusters;
     const double *x, *y, *vx, *vy;
@@ -48,7 +48,7 @@ struct LaneMoments {
 };
 
 template <bool Partly, bool Flows, class Exchange>
-GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &places, LaneMoments &sum,
+GP_INLINE void add_neighbors(const GradientView &v, int64_t cluster, const LanePlaces &places, LaneMoments &sum,
                              Exchange &exchange) {
     const double *__restrict x = v.x, *__restrict y = v.y, *__restrict vx = v.vx, *__restrict vy = v.vy;
     const Lanes xi = places.load(x), yi = places.load(y), ui = places.load(vx), vi = places.load(vy);
@@ -72,7 +72,7 @@ GP_INLINE void add_neighbors(const View &v, int64_t cluster, const LanePlaces &p
 
 // Adds to `ghosts` what the particles of a cluster see of plates. (The ghosts of single particles by vectors took a fifth of the
 // gradient's time in a scene of 640 particles.)
-GP_INLINE void add_ghosts(const View &v, int64_t cluster, const LanePlaces &places, Moments *ghosts) {
+GP_INLINE void add_ghosts(const GradientView &v, int64_t cluster, const LanePlaces &places, Moments *ghosts) {
     const double *__restrict x = v.gx, *__restrict y = v.gy, *__restrict vx = v.gvx, *__restrict vy = v.gvy;
     const Lanes xi = places.load(v.x), yi = places.load(v.y), ui = places.load(v.vx), vi = places.load(v.vy);
     const double inverse_radius = v.inverse_radius;
@@ -103,7 +103,7 @@ GP_INLINE Tensor gradient_of(const Moments &m, const SymmetricTensor &g) {
 }
 
 // m: of its neighbours; ghosts: of plates.
-GP_INLINE void finish(const View &v, int64_t i, Moments m, const Moments &ghosts) {
+GP_INLINE void finish(const GradientView &v, int64_t i, Moments m, const Moments &ghosts) {
     const double carried = carried_share(m.kxx + m.kyy, v.lattice_moment);
     const Rows::Run run = v.rows.contacts_of(i);
     if (run.first != run.last) {
@@ -125,7 +125,7 @@ GP_INLINE void finish(const View &v, int64_t i, Moments m, const Moments &ghosts
     v.crowding[i] = v.flowing[i] > 0 ? m.n - 1 : 0.0; // without itself
 }
 
-template <bool Flows, class Exchange> GP_INLINE void cluster_gradient(const View &v, int64_t cluster) {
+template <bool Flows, class Exchange> GP_INLINE void cluster_gradient(const GradientView &v, int64_t cluster) {
     const int64_t first = v.clusters.first[cluster], last = v.clusters.first[cluster + 1];
     const LanePlaces places(first, last);
     LaneMoments sum;
@@ -143,7 +143,7 @@ template <bool Flows, class Exchange> GP_INLINE void cluster_gradient(const View
     }
 }
 
-template <class Exchange> void gradient_of_clusters(const View &v, int64_t begin, int64_t end) {
+template <class Exchange> void gradient_of_clusters(const GradientView &v, int64_t begin, int64_t end) {
     for (int64_t c = begin; c < end; ++c) {
         double flows = 0;
         for (int64_t i = v.clusters.first[c]; i < v.clusters.first[c + 1]; ++i)
@@ -155,7 +155,7 @@ template <class Exchange> void gradient_of_clusters(const View &v, int64_t begin
     }
 }
 
-using ClusterLoop = void (*)(const View &, int64_t, int64_t);
+using ClusterLoop = void (*)(const GradientView &, int64_t, int64_t);
 
 ClusterLoop exchanging_loop(bool one_density, bool fluid) {
     if (fluid)
@@ -164,7 +164,7 @@ ClusterLoop exchanging_loop(bool one_density, bool fluid) {
     return one_density ? gradient_of_clusters<Exchange<true>> : gradient_of_clusters<Exchange<false>>;
 }
 
-View view_of(World &world, const ExchangeView &exchange) {
+GradientView view_of(World &world, const ExchangeView &exchange) {
     Particles &p = world.particles;
     Walls &w = world.walls;
     return {Rows(world),
@@ -201,7 +201,7 @@ void run(World &world, const ExchangeView &exchange, ClusterLoop clusters) {
     hand_over(p.cyx, p.crowding);
     if (!world.walls.plates.empty())
         hand_over(p.cyy, p.carried);
-    const View view = view_of(world, exchange);
+    const GradientView view = view_of(world, exchange);
     for_each_awake_cluster_run(world, [&](int64_t begin, int64_t end) { clusters(view, begin, end); });
     p.give_back_accelerations();
 }

@@ -57,7 +57,7 @@ GP_INLINE Sums sums_over(const int32_t *__restrict row, int64_t n, double xi, do
     return {ax, ay, sx, sy};
 }
 
-struct View {
+struct MpsForceView {
     Points particles, ghosts;
     const int64_t *start;
     const int32_t *index;
@@ -71,7 +71,7 @@ struct View {
 
 // The load on a plate is by the sum of the stresses in place of their difference: the traction that the pairs through its
 // surface pass on; of a plate that is not rough its normal part, since the shear traction is the stage wall_friction's.
-void viscous_rows(const View &v, int64_t begin, int64_t end) {
+void viscous_rows(const MpsForceView &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = v.particles.x[i], yi = v.particles.y[i];
         const double xx = v.particles.axx[i], xy = v.particles.axy[i], yy = v.particles.ayy[i];
@@ -91,7 +91,7 @@ void viscous_rows(const View &v, int64_t begin, int64_t end) {
     }
 }
 
-void pressure_rows(const View &v, int64_t begin, int64_t end) {
+void pressure_rows(const MpsForceView &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double xi = v.particles.x[i], yi = v.particles.y[i], own = v.particles.axx[i];
         Sums sum = sums_over<false>(v.index + v.start[i], v.start[i + 1] - v.start[i], xi, yi, v.particles,
@@ -116,7 +116,7 @@ void pressure_rows(const View &v, int64_t begin, int64_t end) {
     }
 }
 
-View make_view(World &world, const Points &particles, double *fx, double *fy) {
+MpsForceView make_view(World &world, const Points &particles, double *fx, double *fy) {
     const Constants &c = world.constants;
     Walls &w = world.walls;
     return {particles,
@@ -151,7 +151,7 @@ void divide_by_density(World &world, int64_t block, int64_t begin, int64_t end, 
 void viscous_force(World &world) {
     Particles &p = world.particles;
     world.walls.clear_loads();
-    const View view =
+    const MpsForceView view =
         make_view(world, {p.x.data(), p.y.data(), p.sxx.data(), p.sxy.data(), p.syy.data()}, p.ax.data(), p.ay.data());
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         viscous_rows(view, begin, end);
@@ -161,7 +161,7 @@ void viscous_force(World &world) {
 
 void pressure_gradient(World &world) {
     Particles &p = world.particles;
-    const View view =
+    const MpsForceView view =
         make_view(world, {p.x.data(), p.y.data(), p.pressure.data(), nullptr, nullptr}, p.cxx.data(), p.cxy.data());
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         pressure_rows(view, begin, end);

@@ -7,14 +7,14 @@ namespace gp::stages {
 
 namespace {
 
-struct View {
+struct DensityView {
     Rows rows;
     const double *x, *y, *gx, *gy;
     double inverse_radius;
     double *sum;
 };
 
-void number_density_rows(const View &v, int64_t begin, int64_t end) {
+void number_density_rows(const DensityView &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         double sum = number_density_sum(v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.x, v.y, v.inverse_radius);
         for (const Contact &contact : v.rows.contacts_of(i)) {
@@ -31,9 +31,9 @@ void number_density(World &world) {
     Particles &p = world.particles;
     const Constants &c = world.constants;
     const Walls &w = world.walls;
-    const View view{Rows(world),      p.x.data(),       p.y.data(),
-                    w.ghost_x.data(), w.ghost_y.data(), 1.0 / c.interaction_radius,
-                    p.density.data()};
+    const DensityView view{Rows(world),      p.x.data(),       p.y.data(),
+                           w.ghost_x.data(), w.ghost_y.data(), 1.0 / c.interaction_radius,
+                           p.density.data()};
     const double inverse = 1.0 / c.interaction_lattice.number_density;
     for_each_block(world.threads, p.count, [&](int64_t block, int64_t begin, int64_t end) {
         double densest = 0;

@@ -7,7 +7,7 @@ namespace gp::stages {
 
 namespace {
 
-struct View {
+struct ShapeView {
     Rows rows;
     const double *x, *y, *gx, *gy;
     double inverse_radius, lattice_moment;
@@ -31,7 +31,7 @@ GP_INLINE void add_shape(Moments &sum, const int32_t *__restrict row, int64_t n,
     sum.kyy += kyy;
 }
 
-void shape_rows(const View &v, int64_t begin, int64_t end) {
+void shape_rows(const ShapeView &v, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         Moments m;
         add_shape(m, v.rows.row(i), v.rows.count(i), v.x[i], v.y[i], v.x, v.y, v.inverse_radius);
@@ -51,16 +51,16 @@ void shape_rows(const View &v, int64_t begin, int64_t end) {
 void shape_tensor(World &world) {
     Particles &p = world.particles;
     const Walls &w = world.walls;
-    const View view{Rows(world),
-                    p.x.data(),
-                    p.y.data(),
-                    w.ghost_x.data(),
-                    w.ghost_y.data(),
-                    1.0 / world.constants.horizon,
-                    world.constants.lattice.second_moment,
-                    p.gxx.data(),
-                    p.gxy.data(),
-                    p.gyy.data()};
+    const ShapeView view{Rows(world),
+                         p.x.data(),
+                         p.y.data(),
+                         w.ghost_x.data(),
+                         w.ghost_y.data(),
+                         1.0 / world.constants.horizon,
+                         world.constants.lattice.second_moment,
+                         p.gxx.data(),
+                         p.gxy.data(),
+                         p.gyy.data()};
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) { shape_rows(view, begin, end); });
 }
 

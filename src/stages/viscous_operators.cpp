@@ -8,7 +8,7 @@ namespace gp::stages {
 
 namespace {
 
-struct View {
+struct OperatorView {
     Rows rows;
     const Facet *facets;
     const double *qx, *qy, *w;                   // w r and w of pairs
@@ -17,7 +17,7 @@ struct View {
     const double *beside;
     const double *ixx, *ixy, *iyy; // of the particles alone
 
-    explicit View(const World &world)
+    explicit OperatorView(const World &world)
         : rows(world), facets(world.walls.facets.data()), qx(world.viscous.pair.x.data()),
           qy(world.viscous.pair.y.data()), w(world.viscous.pair_weight.data()),
           ghost_qx(world.viscous.contact_pair.x.data()), ghost_qy(world.viscous.contact_pair.y.data()),
@@ -61,7 +61,7 @@ struct Gradients {
     double *inner_xx, *inner_xy, *inner_yx, *inner_yy; // that of the particles alone
 };
 
-void rate_rows(const View &v, const double *__restrict ux, const double *__restrict uy, const double *gx,
+void rate_rows(const OperatorView &v, const double *__restrict ux, const double *__restrict uy, const double *gx,
                const double *gy, const Gradients &l, int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
         const double ui = ux[i], vi = uy[i];
@@ -164,7 +164,8 @@ void find_ghost_forces(World &world, const VectorField &u) {
     });
 }
 
-GP_INLINE Vector force_of_contact(const View &v, const World &world, const VectorField &u, const Contact &contact) {
+GP_INLINE Vector force_of_contact(const OperatorView &v, const World &world, const VectorField &u,
+                                  const Contact &contact) {
     const ViscousSystem &s = world.viscous;
     const ThroughPlate through(world, u, contact.particle, v.facets[contact.listed_facet]);
     Vector force = Vector::Zero();
@@ -184,8 +185,8 @@ struct Sources {
     const double *cxx, *cxy, *cyx, *cyy, *stiffness, *ux, *uy;
 };
 
-void force_rows(const View &v, const World &world, const VectorField &u, const Sources &sources, double *fx, double *fy,
-                int64_t begin, int64_t end) {
+void force_rows(const OperatorView &v, const World &world, const VectorField &u, const Sources &sources, double *fx,
+                double *fy, int64_t begin, int64_t end) {
     const double *__restrict cxx = sources.cxx, *__restrict cxy = sources.cxy, *__restrict cyx = sources.cyx,
                              *__restrict cyy = sources.cyy;
     const double *__restrict stiffness = sources.stiffness, *__restrict ux = sources.ux, *__restrict uy = sources.uy;
@@ -212,7 +213,7 @@ void force_rows(const View &v, const World &world, const VectorField &u, const S
     }
 }
 
-void diagonal_rows(const View &v, const double *__restrict kxx, const double *__restrict kxy,
+void diagonal_rows(const OperatorView &v, const double *__restrict kxx, const double *__restrict kxy,
                    const double *__restrict kyy, const double *__restrict stiffness, double *diagonal, int64_t begin,
                    int64_t end) {
     for (int64_t i = begin; i < end; ++i) {
@@ -241,7 +242,7 @@ void viscous_rates(World &world, VectorField &u, Plates plates, VectorField &e) 
     world.images.copy({&u.x, &u.y});
     if (world.walls.in_reach())
         find_ghost_velocities(world, u, plates);
-    const View view(world);
+    const OperatorView view(world);
     const Gradients gradients{v.full_xx.data(), v.full_xy.data(), v.full_yx.data(), v.full_yy.data(),
                               v.lxx.data(),     v.lxy.data(),     v.lyx.data(),     v.lyy.data()};
     for_each_block(world.threads, world.particles.count, [&](int64_t, int64_t begin, int64_t end) {
@@ -269,7 +270,7 @@ void viscous_forces(World &world, const VectorField &s, const VectorField &u, Ve
     world.images.copy({&p.cxx, &p.cxy, &p.cyx, &p.cyy, &v.lxx, &v.lxy, &v.lyx, &v.lyy});
     if (world.walls.in_reach())
         find_ghost_forces(world, u);
-    const View view(world);
+    const OperatorView view(world);
     const Sources sources{p.cxx.data(),       p.cxy.data(), p.cyx.data(), p.cyy.data(),
                           v.stiffness.data(), u.x.data(),   u.y.data()};
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
@@ -278,7 +279,7 @@ void viscous_forces(World &world, const VectorField &s, const VectorField &u, Ve
 }
 
 Vector viscous_contact_force(const World &world, const VectorField &u, const Contact &contact) {
-    return force_of_contact(View(world), world, u, contact);
+    return force_of_contact(OperatorView(world), world, u, contact);
 }
 
 // With eta in place of H the block of particle i is eta/2 |K^-1 q|^2 for each row of rates that q stands in.
@@ -294,7 +295,7 @@ void viscous_diagonal(World &world, const Field<double> &eta, Field<double> &dia
         }
     });
     world.images.copy({&v.kxx, &v.kxy, &v.kyy});
-    const View view(world);
+    const OperatorView view(world);
     for_each_block(world.threads, p.count, [&](int64_t, int64_t begin, int64_t end) {
         diagonal_rows(view, v.kxx.data(), v.kxy.data(), v.kyy.data(), v.stiffness.data(), diagonal.data(), begin, end);
     });

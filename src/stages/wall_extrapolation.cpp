@@ -11,12 +11,12 @@ namespace gp::stages {
 
 namespace {
 
-struct View {
+struct ExtrapolationView {
     const Walls &walls;
     const double *x, *y, *vx, *vy, *density, *pressure, *sxx, *sxy, *flowing;
     double inverse_radius;
 
-    explicit View(const World &world)
+    explicit ExtrapolationView(const World &world)
         : walls(world.walls), x(world.particles.x.data()), y(world.particles.y.data()), vx(world.particles.vx.data()),
           vy(world.particles.vy.data()), density(world.particles.density.data()),
           pressure(world.particles.pressure.data()), sxx(world.particles.sxx.data()), sxy(world.particles.sxy.data()),
@@ -24,7 +24,7 @@ struct View {
 };
 
 // Adds what a group of four ghosts sees: add(i, w, dx, dy) for the particles i, with the lanes' weights and ways from the ghosts.
-template <class Sums> GP_INLINE Sums sums_of_group(const View &view, int64_t group, Sums sums) {
+template <class Sums> GP_INLINE Sums sums_of_group(const ExtrapolationView &view, int64_t group, Sums sums) {
     const double *__restrict x = view.x, *__restrict y = view.y;
     const LaneRows &rows = view.walls.lanes.particles_of_ghosts;
     const int32_t *__restrict index = rows.index.data();
@@ -47,7 +47,7 @@ template <bool Sheared> struct VelocitySums {
     const double *__restrict vx, *__restrict vy, *__restrict pressure, *__restrict flowing;
     Lanes w{}, u{}, v{}, x{}, y{}, held{};
 
-    explicit VelocitySums(const View &view)
+    explicit VelocitySums(const ExtrapolationView &view)
         : vx(view.vx), vy(view.vy), pressure(view.pressure), flowing(view.flowing) {}
     GP_INLINE void add(int32_t i, const Lanes &weight, const Lanes &dx, const Lanes &dy) {
         w += weight;
@@ -65,7 +65,7 @@ struct WallStressSums {
     const double *__restrict density, *__restrict pressure_of, *__restrict sxx, *__restrict sxy;
     Lanes w{}, pressure{}, xx{}, xy{}, up_x{}, up_y{};
 
-    explicit WallStressSums(const View &view)
+    explicit WallStressSums(const ExtrapolationView &view)
         : density(view.density), pressure_of(view.pressure), sxx(view.sxx), sxy(view.sxy) {}
     GP_INLINE void add(int32_t i, const Lanes &weight, const Lanes &dx, const Lanes &dy) {
         w += weight;
@@ -82,7 +82,7 @@ struct WallStressSums {
 
 // Calls body(k, sums, lane) for the ghosts k in begin .. end.
 template <class Sums, class Body>
-GP_INLINE void sum_up_ghosts(const View &view, int64_t begin, int64_t end, const Body &body) {
+GP_INLINE void sum_up_ghosts(const ExtrapolationView &view, int64_t begin, int64_t end, const Body &body) {
     for (int64_t k = begin; k < end;) {
         const int64_t group = k / lane_count, stop = std::min(end, (group + 1) * lane_count);
         const Sums sums = sums_of_group(view, group, Sums(view));
@@ -92,7 +92,7 @@ GP_INLINE void sum_up_ghosts(const View &view, int64_t begin, int64_t end, const
 }
 
 template <class Sums, class Body> void for_each_ghost(const World &world, const Body &body) {
-    const View view(world);
+    const ExtrapolationView view(world);
     for_each_awake_ghost_run(world, [&](int64_t begin, int64_t end) { sum_up_ghosts<Sums>(view, begin, end, body); });
 }
 

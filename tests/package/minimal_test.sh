@@ -17,11 +17,10 @@ trap 'rm -rf "$work"' EXIT
 # shellcheck source=tests/package/consumer_fortran.sh
 . "$(dirname "$0")/consumer_fortran.sh"
 
-# The packages cannot be found, so that the build cannot use them by mistake. The library's own code has no warnings, and each file
-# compiles by itself.
+# The packages cannot be found, so that the build cannot use them by mistake. The library's own code has no warnings.
 "$CMAKE" -S "$source_directory" -B "$work/build" -G "$GENERATOR" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
     -DCMAKE_BUILD_TYPE=Release -DGRANPERI_HDF5=OFF -DGRANPERI_OPENMP=OFF -DGRANPERI_BUILD_FORTRAN=OFF -DGRANPERI_BUILD_TESTS=OFF \
-    -DGRANPERI_BUILD_EXAMPLES=OFF -DGRANPERI_LEVEL=one -DCMAKE_UNITY_BUILD=OFF -DGRANPERI_WERROR=ON \
+    -DGRANPERI_BUILD_EXAMPLES=OFF -DGRANPERI_LEVEL=one -DGRANPERI_WERROR=ON \
     -DCMAKE_DISABLE_FIND_PACKAGE_HDF5=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenMP=ON \
     -DCMAKE_INSTALL_LIBDIR="$libdir" >"$work/log" 2>&1 || { cat "$work/log"; fail "configuring"; }
 "$CMAKE" --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; fail "building"; }
