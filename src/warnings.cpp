@@ -108,9 +108,11 @@ std::string text_of_compression(const World &world, const Compressed &found) {
     const double speed = approach_to(world, found.particle), hardest = std::max(speed, c.impact.speed);
     std::string text = format_text("compression of %.3g %% at (%g, %g) m, time %g s: ", 100 * found.most,
                                    p.x[found.particle], p.y[found.particle], world.clock.time);
-    // Where it is densest a blow compresses by up to three times that ratio, a squeeze at any speed.
-    const bool is_blow = found.most * c.sound_speed * c.sound_speed > c.flow_speed * c.flow_speed &&
-                         3 * speed > 0.5 * found.most * c.sound_speed;
+    // Where it is densest a blow compresses by up to three times that ratio, a squeeze at any speed. One that the scene foresees, too
+    // hard for its sound speed, has just begun where it is no denser yet than a pressure makes it.
+    const bool is_hard = c.impact.speed > most_blow * c.sound_speed ||
+                         found.most * c.sound_speed * c.sound_speed > c.flow_speed * c.flow_speed;
+    const bool is_blow = is_hard && 3 * speed > 0.5 * found.most * c.sound_speed;
     if (is_blow)
         return text +
                format_text("what is stopped at %.3g m/s, as in a blow or a jet, is compressed by the ratio of that "
