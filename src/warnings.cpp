@@ -98,6 +98,11 @@ double approach_to(const World &world, int64_t i) {
     return fastest;
 }
 
+// Whether what is stopped at this speed is compressed by more than it should be.
+bool is_too_hard(const Constants &c, double speed) {
+    return speed > most_blow * c.sound_speed;
+}
+
 // What bears or flows is compressed by its pressure, as the square of speeds that the scene foresees over the sound speed; what
 // is stopped at once, by the ratio of its speed to that: a blow, a jet. The remedy for the one is too small for the other.
 std::string text_of_compression(const World &world, const Compressed &found) {
@@ -108,10 +113,10 @@ std::string text_of_compression(const World &world, const Compressed &found) {
     const double speed = approach_to(world, found.particle), hardest = std::max(speed, c.impact.speed);
     std::string text = format_text("compression of %.3g %% at (%g, %g) m, time %g s: ", 100 * found.most,
                                    p.x[found.particle], p.y[found.particle], world.clock.time);
-    // Where it is densest a blow compresses by up to three times that ratio, a squeeze at any speed. One that the scene foresees, too
-    // hard for its sound speed, has just begun where it is no denser yet than a pressure makes it.
-    const bool is_hard = c.impact.speed > most_blow * c.sound_speed ||
-                         found.most * c.sound_speed * c.sound_speed > c.flow_speed * c.flow_speed;
+    // Where it is densest a blow compresses by up to three times that ratio, a squeeze at any speed. One that the scene
+    // foresees, too hard for its sound speed, has just begun where it is no denser yet than a pressure makes it.
+    const bool is_hard =
+        is_too_hard(c, c.impact.speed) || found.most * c.sound_speed * c.sound_speed > c.flow_speed * c.flow_speed;
     const bool is_blow = is_hard && 3 * speed > 0.5 * found.most * c.sound_speed;
     if (is_blow)
         return text +
@@ -147,7 +152,7 @@ std::string text_of_energy(const World &world, double error) {
     text += config.time_step > 0 ? format_text("gp_config.time_step to about %.2g s", share * config.time_step)
                                  : format_text("gp_config.cfl to about %.2g (the last time_step was %.3g s)",
                                                share * world.clock.dt * c.wave_speed / c.spacing, world.clock.dt);
-    if (speed > most_blow * c.sound_speed)
+    if (is_too_hard(c, speed))
         text += format_text(
             " or, if it is from the blow at %.3g m/s with which the scene begins, gp_config.sound_speed to about %.3g",
             speed, speed / most_blow);
@@ -180,7 +185,7 @@ std::string text_of_passed(const World &world, const Contact &contact) {
                format_text("plates %d and %d close on it; let them stay a spacing apart, %g m", id, other, c.spacing);
     if (moves)
         return at_time("passes over") + "drive the plate slower, or keep plates that meet a spacing apart";
-    if (world.velocity_span > most_blow * c.sound_speed)
+    if (is_too_hard(c, world.velocity_span))
         return at_time("is passed by") +
                format_text("the plate is at rest, and material comes at up to %.3g m/s; set gp_config.sound_speed to "
                            "about %.3g (%g m/s now) or let it meet more slowly",

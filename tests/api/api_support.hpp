@@ -47,6 +47,12 @@ inline gp_column make_column(int columns, int rows, double x_min = 0, double y_m
     return column;
 }
 
+inline gp_column thrown(gp_column column, double vx, double vy) {
+    column.vx = vx;
+    column.vy = vy;
+    return column;
+}
+
 inline gp_plate make_plate(double x0, double y0, double x1, double y1) {
     gp_plate plate;
     EXPECT_EQ(gp_plate_init(&plate, sizeof plate), GP_OK);

@@ -16,12 +16,6 @@ gp_plate turned_over(gp_plate plate) {
     return plate;
 }
 
-gp_column thrown(gp_column column, double vx, double vy) {
-    column.vx = vx;
-    column.vy = vy;
-    return column;
-}
-
 // Particles on the lattice of the spacing wherever the condition holds.
 template <class Inside> void add_shape(Sim &sim, double x_max, double y_max, const Inside &inside) {
     std::vector<double> x, y;

@@ -87,14 +87,8 @@ TEST(Warnings, OfCompression) {
 // speed, which the library would have chosen), and it helps.
 TEST(Warnings, OfABlow) {
     const auto falling = [](Sim &sim) {
-        std::vector<double> x, y;
-        for (int k = 0; k < 100; ++k) {
-            x.push_back((k % 10) * spacing);
-            y.push_back((0.5 + k / 10) * spacing);
-        }
-        const std::vector<double> vx(x.size(), 0.0), vy(x.size(), -3.0);
         sim.add(make_floor());
-        ASSERT_EQ(gp_add_particles(sim, 0, 100, x.data(), y.data(), vx.data(), vy.data(), nullptr), GP_OK);
+        sim.add(thrown(make_column(10, 10), 0, -3));
     };
     gp_config config = make_config();
     config.sound_speed = 5;
