@@ -185,14 +185,16 @@ std::string text_of_passed(const World &world, const Contact &contact) {
                format_text("plates %d and %d close on it; let them stay a spacing apart, %g m", id, other, c.spacing);
     if (moves)
         return at_time("passes over") + "drive the plate slower, or keep plates that meet a spacing apart";
-    if (is_too_hard(c, world.velocity_span))
+    // Of 1800 blocks and towers thrown at floors and slopes, with sound speeds of 1.5 to 40 times their own and horizons of
+    // 2.2 to 4, 231 pass: with a sound speed of .3 to 5.9 times the fastest then, a tower three wide on a smooth floor up to 10.3.
+    if (sound_to_flow_speed * world.velocity_span > c.sound_speed)
         return at_time("is passed by") +
                format_text("the plate is at rest, and material comes at up to %.3g m/s; set gp_config.sound_speed to "
                            "about %.3g (%g m/s now) or let it meet more slowly",
                            world.velocity_span, world.velocity_span / most_blow, c.sound_speed);
     return at_time("is passed by") +
-           "the plate is at rest; begin material half a spacing in front of its line, and let the "
-           "ends of plates that meet coincide or overlap";
+           "the plate is at rest; begin material half a spacing in front of its line, on the right of the way "
+           "from end 0 to end 1, and let the ends of plates that meet coincide or overlap";
 }
 
 struct Overlaps {
