@@ -43,8 +43,8 @@ void check_config(const gp_config &c) {
     require_not_negative("gp_config.channel_friction", c.channel_friction);
     require(c.channel_friction == 0 || c.channel_width > 0, "gp_config.channel_friction", c.channel_friction,
             "0 as long as channel_width is 0");
-    require_finite("gp_config.periodic_x_min", c.periodic_x_min);
-    require_finite("gp_config.periodic_x_max", c.periodic_x_max);
+    require_position("gp_config.periodic_x_min", c.periodic_x_min, c.spacing);
+    require_position("gp_config.periodic_x_max", c.periodic_x_max, c.spacing);
     require(c.periodic_x_max >= c.periodic_x_min, "gp_config.periodic_x_max", c.periodic_x_max,
             "a number not below periodic_x_min");
     if (c.periodic_x_max > c.periodic_x_min) {

@@ -207,6 +207,21 @@ TEST(Config, PeriodIsChecked) {
     EXPECT_FAILS(create(config), GP_E_ARGUMENT, "periodic_x_max");
 }
 
+// As all positions do, they lie within 1e12 spacings of the origin: farther away a double does not tell two particles apart.
+TEST(Config, EndsOfThePeriodArePositions) {
+    gp_config config = make_config();
+    config.periodic_x_max = 1e12 * config.spacing;
+    EXPECT_EQ(create(config), GP_OK) << gp_last_error();
+    for (const double far : {1.01e12 * config.spacing, 1e300}) {
+        config.periodic_x_min = 0;
+        config.periodic_x_max = far;
+        EXPECT_FAILS(create(config), GP_E_ARGUMENT, "periodic_x_max");
+        config.periodic_x_min = -far;
+        config.periodic_x_max = 0;
+        EXPECT_FAILS(create(config), GP_E_ARGUMENT, "periodic_x_min");
+    }
+}
+
 TEST(Config, PaperPresetsAreTheDocumentedOnes) {
     for (const int32_t preset : {GP_PRESET_PAPER, GP_PRESET_PAPER_LOCAL}) {
         gp_config config;

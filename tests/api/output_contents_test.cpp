@@ -133,6 +133,38 @@ TEST_F(Output, HoldsTheStateAtEachFrameAndTheScene) {
         EXPECT_NE(scene.find(part), std::string::npos) << part << " in " << scene;
 }
 
+// A line of points that turns by a table, and one that the host drives from where its table begins.
+TEST_F(Output, HoldsTheLinesAndMotionsOfPlates) {
+    Sim sim;
+    sim.add(make_column(3, 2, 0, 0.5));
+    const double x[] = {1, 0.5, 0}, y[] = {0, 0.25, 0}, t[] = {0, 2}, dx[] = {0.125, 1}, dy[] = {0.375, 1},
+                 angle[] = {0.75, 1};
+    gp_plate line = make_plate(0, 0, 0, 0);
+    line.n_points = 3;
+    line.point_x = x;
+    line.point_y = y;
+    line.n_knots = 2;
+    line.knot_t = t;
+    line.knot_angle = angle;
+    sim.add(line);
+    gp_plate driven = make_plate(1, -1, 0, -1);
+    driven.n_knots = 2;
+    driven.knot_t = t;
+    driven.knot_x = dx;
+    driven.knot_y = dy;
+    driven.knot_angle = angle;
+    const int32_t id = sim.add(driven);
+    ASSERT_EQ(gp_set_plate_motion(sim, id, 0.5, 0, 0.25), GP_OK) << gp_last_error();
+    ASSERT_EQ(gp_output_open(sim, path.c_str(), nullptr), GP_OK) << gp_last_error();
+    ASSERT_EQ(gp_output_write(sim), GP_OK);
+    ASSERT_EQ(gp_output_close(sim), GP_OK);
+    const std::string scene = scene_of(path);
+    for (const char *part :
+         {R"("point_x": [1, 0.5, 0])", R"("point_y": [0, 0.25, 0])", R"("knot_angle": [0.75, 1])",
+          R"("start_x": 0.125)", R"("start_y": 0.375)", R"("start_angle": 0.75)", R"("vx": 0.5)", R"("omega": 0.25)"})
+        EXPECT_NE(scene.find(part), std::string::npos) << part << " in " << scene;
+}
+
 // "x and y come together, so do vx and vy; id and position are always written".
 TEST_F(Output, PairsComeTogether) {
     const struct {

@@ -49,6 +49,28 @@ TEST(Rest, WaitsForATableToEnd) {
     EXPECT_EQ(at_rest_at(sim, 2.5), 1) << "its last knots displace it no further";
 }
 
+// A flap about its foot, and one that turns where nothing lies.
+TEST(Rest, WaitsForAPlateThatIsStillToTurn) {
+    for (const bool far : {false, true}) {
+        Sim sim;
+        add_held_column(sim);
+        gp_plate flap = make_gate();
+        if (far) {
+            sim.add(make_gate());
+            flap.x0 = flap.x1 = 1;
+        }
+        const double t[] = {0, 1, 1.1, 3}, angle[] = {0, 0, -0.5, -0.5};
+        flap.pivot_x = flap.x1;
+        flap.n_knots = 4;
+        flap.knot_t = t;
+        flap.knot_angle = angle;
+        sim.add(flap);
+        EXPECT_EQ(at_rest_at(sim, 0.5), far) << "the flap is still to be opened";
+        EXPECT_EQ(at_rest_at(sim, 1.05), far);
+        EXPECT_EQ(at_rest_at(sim, 2.5), 1) << "its last knots turn it no further";
+    }
+}
+
 TEST(Rest, WaitsForTheHostsPlate) {
     Sim sim;
     add_held_column(sim);
