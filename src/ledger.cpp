@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "error.hpp"
 #include "material/compression.hpp"
 #include "stretches.hpp"
 
@@ -97,11 +98,22 @@ void count_from_lowest(World &world) {
     ledger.level = 0;
 }
 
+// Squares of velocities overflow long before velocities do.
+void require_finite(const Energies &e) {
+    if (!std::isfinite(e.sum()))
+        throw make_error(
+            GP_E_ARGUMENT,
+            "energies of %g (kinetic), %g (potential), %g J/m (elastic): expected finite numbers, by smaller "
+            "velocities, gravity or density",
+            e.kinetic, e.potential, e.elastic);
+}
+
 } // namespace
 
 void open_ledger(World &world) {
     count_from_lowest(world);
     const Energies e = measure_energies(world);
+    require_finite(e);
     world.ledger.initial = world.ledger.scale = e.sum();
     world.ledger.largest_kinetic = e.kinetic;
 }
@@ -143,10 +155,11 @@ void fall_by(World &world, const Vector &gravity, const Energies &before) {
         });
     }
     count_from_lowest(world);
-    const double potential = measure_energies(world).potential;
+    const Energies now = measure_energies(world);
+    require_finite(now);
     Ledger &ledger = world.ledger;
-    ledger.level = before.potential - potential;
-    ledger.scale = before.kinetic + before.elastic + potential;
+    ledger.level = before.potential - now.potential;
+    ledger.scale = before.kinetic + before.elastic + now.potential;
     ledger.largest_kinetic = before.kinetic;
 }
 
@@ -158,7 +171,7 @@ void change_gravity(World &world, const Vector &gravity) {
     const Ledger ledger = world.ledger;
     try {
         fall_by(world, gravity, before);
-    } catch (...) { // the first process lacks memory to measure
+    } catch (...) { // energies that are no numbers, or the first process lacks memory to measure
         world.constants = std::move(constants);
         world.ledger = ledger;
         throw;

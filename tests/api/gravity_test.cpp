@@ -37,6 +37,48 @@ TEST(Gravity, WantsFiniteNumbersAndASimulation) {
     EXPECT_EQ(sim.state().gravity_y, -9.81);
 }
 
+// Energies that overflow are refused where they come to be: the material's at the start, or those of another gravity. The simulation
+// stays as it was, and what is saved of it can be loaded.
+TEST(Gravity, EnergiesThatAreNoNumbersAreRefused) {
+    const test::TemporaryDirectory directory("granperi_gravity");
+    const std::string path = directory.path() + "/state.gp";
+    const auto can_be_loaded = [&](gp_sim *sim) {
+        if (!has("hdf5"))
+            return;
+        gp_sim *loaded = nullptr;
+        EXPECT_EQ(gp_save(sim, path.c_str()), GP_OK) << gp_last_error();
+        EXPECT_EQ(gp_load(path.c_str(), &loaded), GP_OK) << gp_last_error();
+        gp_destroy(loaded);
+    };
+    gp_state state{};
+    state.struct_size = sizeof state;
+    {
+        Sim sim;
+        sim.add(make_floor());
+        sim.add(thrown(make_column(3, 3), 1e200, 0));
+        EXPECT_FAILS(gp_get_state(sim, &state), GP_E_ARGUMENT, "energies of inf (kinetic)");
+        EXPECT_FAILS(gp_step(sim, 1), GP_E_ARGUMENT, "velocities");
+        can_be_loaded(sim);
+    }
+    Sim sim;
+    sim.add(make_floor());
+    sim.add(make_column(3, 3));
+    ASSERT_EQ(gp_set_gravity(sim, 0, -1e200), GP_OK);
+    EXPECT_FAILS(gp_step(sim, 1), GP_E_ARGUMENT, "gravity");
+    can_be_loaded(sim);
+    ASSERT_EQ(gp_set_gravity(sim, 0, -9.81), GP_OK);
+    ASSERT_EQ(gp_step(sim, 3), GP_OK) << gp_last_error();
+    std::vector<uint64_t> before, after;
+    add_fields(before, sim);
+    add_state(before, sim.state());
+    EXPECT_FAILS(gp_set_gravity(sim, 0, -1e200), GP_E_ARGUMENT, "gravity");
+    add_fields(after, sim);
+    add_state(after, sim.state());
+    EXPECT_EQ(after, before);
+    can_be_loaded(sim);
+    EXPECT_EQ(gp_step(sim, 1), GP_OK) << gp_last_error();
+}
+
 // Columns begin in balance with it, the sound speed is made for it.
 TEST(Gravity, BeforeTheFirstStepIsTheConfigs) {
     gp_config config = make_config();
