@@ -29,6 +29,13 @@ inline void require_between(const char *name, double value, double low, double h
         throw make_error(GP_E_ARGUMENT, "%s = %g: expected a number from %g to %g", name, value, low, high);
 }
 
+// Speeds, accelerations and densities beyond this make energies that are no numbers.
+constexpr double largest_quantity = 1e50; // SI
+
+inline void require_quantity(const char *name, double value) {
+    require_between(name, value, -largest_quantity, largest_quantity);
+}
+
 // Positions beyond this many spacings from the origin no longer resolve the spacing well (to 2e-4 of it).
 constexpr double farthest_position = 1e12; // dl
 

@@ -16,8 +16,8 @@ constexpr int64_t most_particles = std::numeric_limits<int32_t>::max() - 1;
 
 void check_config(const gp_config &c) {
     require_between("gp_config.spacing", c.spacing, 1e-9, 1e9);
-    require_finite("gp_config.gravity_x", c.gravity_x);
-    require_finite("gp_config.gravity_y", c.gravity_y);
+    require_quantity("gp_config.gravity_x", c.gravity_x);
+    require_quantity("gp_config.gravity_y", c.gravity_y);
     require_not_negative("gp_config.sound_speed", c.sound_speed);
     // Its square, over which densities are, is a number.
     require(c.sound_speed == 0 || c.sound_speed >= 1e-9, "gp_config.sound_speed", c.sound_speed,
@@ -150,6 +150,7 @@ void check_k0(const gp_material &m, const gp_config &config) {
 
 int32_t Scene::add_material(const gp_material &m) {
     require_positive("gp_material.grain_density", m.grain_density);
+    require_quantity("gp_material.grain_density", m.grain_density);
     require(m.volume_fraction > 0 && m.volume_fraction <= 1, "gp_material.volume_fraction", m.volume_fraction,
             "a number > 0 and <= 1");
     require_positive("gp_material.grain_diameter", m.grain_diameter);
@@ -200,8 +201,8 @@ int32_t Scene::add_column(const gp_column &c, std::string &note) {
     require_positive("gp_column.width", c.width);
     require_positive("gp_column.height", c.height);
     require_choice("gp_column.material", c.material, static_cast<int64_t>(materials_.size()));
-    require_finite("gp_column.vx", c.vx);
-    require_finite("gp_column.vy", c.vy);
+    require_quantity("gp_column.vx", c.vx);
+    require_quantity("gp_column.vy", c.vy);
     require_choice("gp_column.initial_pressure", c.initial_pressure, 2);
     const double spacing = config_.spacing;
     const double columns = std::round(c.width / spacing), rows = std::round(c.height / spacing);
@@ -254,9 +255,8 @@ void Scene::check_particles(int32_t material, int64_t n, const double *px, const
         throw make_error(GP_E_ARGUMENT, "%s = NULL: expected vx and vy both given or both NULL", pvx ? "vy" : "vx");
     const auto check = [&](const char *name, const double *values) {
         for (int64_t k = 0; values && k < n; ++k)
-            if (!std::isfinite(values[k]))
-                throw make_error(GP_E_ARGUMENT, "%s[%lld] = %g: expected a finite number", name,
-                                 static_cast<long long>(k), values[k]);
+            if (!(std::abs(values[k]) <= largest_quantity))
+                require_quantity(format_text("%s[%lld]", name, static_cast<long long>(k)).c_str(), values[k]);
     };
     for (int64_t k = 0; k < n; ++k) {
         require_position(format_text("x[%lld]", static_cast<long long>(k)).c_str(), px[k], config_.spacing);

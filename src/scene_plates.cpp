@@ -207,10 +207,10 @@ int32_t Scene::add_plate(const gp_plate &p) {
     require_not_negative("gp_plate.wall_mu", p.wall_mu);
     require(p.wall_mu == 0 || p.friction == GP_WALL_COULOMB, "gp_plate.wall_mu", p.wall_mu,
             "0 unless friction is GP_WALL_COULOMB");
-    require_finite("gp_plate.vx", p.vx);
-    require_finite("gp_plate.vy", p.vy);
-    require_finite("gp_plate.omega", p.omega);
-    require_finite("gp_plate.surface_velocity", p.surface_velocity);
+    require_quantity("gp_plate.vx", p.vx);
+    require_quantity("gp_plate.vy", p.vy);
+    require_quantity("gp_plate.omega", p.omega);
+    require_quantity("gp_plate.surface_velocity", p.surface_velocity);
     require(p.surface_velocity == 0 || p.friction != GP_WALL_FREE_SLIP, "gp_plate.surface_velocity", p.surface_velocity,
             "0 for a plate without friction, which drives nothing");
     require_position("gp_plate.pivot_x", p.pivot_x, config_.spacing);

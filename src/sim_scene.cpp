@@ -93,9 +93,9 @@ int32_t Sim::add_plate(const gp_plate &plate) {
 
 void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
     require_choice("plate", plate, static_cast<int64_t>(scene_.plates().size()));
-    require_finite("vx", vx);
-    require_finite("vy", vy);
-    require_finite("omega", omega);
+    require_quantity("vx", vx);
+    require_quantity("vy", vy);
+    require_quantity("omega", omega);
     if (crossing_)
         crossing_->require_going();
     const Motion motion{{vx, vy}, omega};
@@ -115,8 +115,8 @@ void Sim::set_plate_motion(int32_t plate, double vx, double vy, double omega) {
 }
 
 void Sim::set_gravity(double gx, double gy) {
-    require_finite("gx", gx);
-    require_finite("gy", gy);
+    require_quantity("gx", gx);
+    require_quantity("gy", gy);
     const Vector gravity(gx, gy);
     if (is_scene_fixed()) {
         if (gravity == world_->constants.gravity)

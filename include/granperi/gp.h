@@ -9,7 +9,8 @@
  *   - Unless a call says otherwise, an error leaves the simulation and all outputs as they were;
  *     a handle or count that the call was to fill in is set to NULL or 0.
  *   - Every number passed in is checked. A value outside the stated range is GP_E_ARGUMENT; nothing is ever clamped. Limits of
- *     all scenes: positions within 1e12 spacings of the origin, a plate's line shorter than 1e8 spacings, 2 147 483 646 particles.
+ *     all scenes: positions within 1e12 spacings of the origin, a plate's line shorter than 1e8 spacings, 2 147 483 646 particles,
+ *     speeds, gravity and density up to 1e50.
  *   - A struct passed in begins with struct_size and is filled by its _init function first. Structs grow only at their end: a
  *     shorter one (an older program) is completed with defaults, a longer one whose unknown tail is not zero is GP_E_VERSION.
  *   - All input is copied: the caller may free its arrays when the call returns.

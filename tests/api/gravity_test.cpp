@@ -37,46 +37,40 @@ TEST(Gravity, WantsFiniteNumbersAndASimulation) {
     EXPECT_EQ(sim.state().gravity_y, -9.81);
 }
 
-// Energies that overflow are refused where they come to be: the material's at the start, or those of another gravity. The simulation
-// stays as it was, and what is saved of it can be loaded.
-TEST(Gravity, EnergiesThatAreNoNumbersAreRefused) {
+// Energies are numbers: from 1e50 on squares of speeds, and what gravity and density make of heights, come near to overflow.
+TEST(Gravity, AndSpeedsAreBounded) {
+    const double most = 1e50, beyond = 1.01e50;
+    gp_config config = make_config();
+    config.gravity_y = -beyond;
+    gp_sim *none = nullptr;
+    EXPECT_FAILS(gp_create(&config, &none), GP_E_ARGUMENT, "gp_config.gravity_y");
+    Sim sim;
+    EXPECT_FAILS(gp_set_gravity(sim, beyond, 0), GP_E_ARGUMENT, "gx");
+    const gp_column fast = thrown(make_column(3, 3), beyond, 0);
+    EXPECT_FAILS(gp_add_column(sim, &fast, nullptr), GP_E_ARGUMENT, "gp_column.vx");
+    const double x[] = {1}, v[] = {0}, w[] = {-beyond};
+    EXPECT_FAILS(gp_add_particles(sim, 0, 1, x, x, v, w, nullptr), GP_E_ARGUMENT, "vy[0]");
+    gp_material heavy = make_material();
+    heavy.grain_density = beyond;
+    EXPECT_FAILS(gp_add_material(sim, &heavy, nullptr), GP_E_ARGUMENT, "gp_material.grain_density");
+    heavy.grain_density = most;
+    int32_t id = 0;
+    ASSERT_EQ(gp_add_material(sim, &heavy, &id), GP_OK) << gp_last_error();
+    gp_column column = thrown(make_column(3, 3), most, -most);
+    column.material = id;
+    sim.add(column);
+    ASSERT_EQ(gp_set_gravity(sim, most, -most), GP_OK);
+    const gp_state state = sim.state();
+    EXPECT_TRUE(std::isfinite(state.kinetic) && std::isfinite(state.potential) && std::isfinite(state.elastic));
+    EXPECT_GT(state.kinetic, 1e140);
+    if (!has("hdf5"))
+        return;
     const test::TemporaryDirectory directory("granperi_gravity");
     const std::string path = directory.path() + "/state.gp";
-    const auto can_be_loaded = [&](gp_sim *sim) {
-        if (!has("hdf5"))
-            return;
-        gp_sim *loaded = nullptr;
-        EXPECT_EQ(gp_save(sim, path.c_str()), GP_OK) << gp_last_error();
-        EXPECT_EQ(gp_load(path.c_str(), &loaded), GP_OK) << gp_last_error();
-        gp_destroy(loaded);
-    };
-    gp_state state{};
-    state.struct_size = sizeof state;
-    {
-        Sim sim;
-        sim.add(make_floor());
-        sim.add(thrown(make_column(3, 3), 1e200, 0));
-        EXPECT_FAILS(gp_get_state(sim, &state), GP_E_ARGUMENT, "energies of inf (kinetic)");
-        EXPECT_FAILS(gp_step(sim, 1), GP_E_ARGUMENT, "velocities");
-        can_be_loaded(sim);
-    }
-    Sim sim;
-    sim.add(make_floor());
-    sim.add(make_column(3, 3));
-    ASSERT_EQ(gp_set_gravity(sim, 0, -1e200), GP_OK);
-    EXPECT_FAILS(gp_step(sim, 1), GP_E_ARGUMENT, "gravity");
-    can_be_loaded(sim);
-    ASSERT_EQ(gp_set_gravity(sim, 0, -9.81), GP_OK);
-    ASSERT_EQ(gp_step(sim, 3), GP_OK) << gp_last_error();
-    std::vector<uint64_t> before, after;
-    add_fields(before, sim);
-    add_state(before, sim.state());
-    EXPECT_FAILS(gp_set_gravity(sim, 0, -1e200), GP_E_ARGUMENT, "gravity");
-    add_fields(after, sim);
-    add_state(after, sim.state());
-    EXPECT_EQ(after, before);
-    can_be_loaded(sim);
-    EXPECT_EQ(gp_step(sim, 1), GP_OK) << gp_last_error();
+    gp_sim *loaded = nullptr;
+    EXPECT_EQ(gp_save(sim, path.c_str()), GP_OK) << gp_last_error();
+    EXPECT_EQ(gp_load(path.c_str(), &loaded), GP_OK) << gp_last_error();
+    gp_destroy(loaded);
 }
 
 // Columns begin in balance with it, the sound speed is made for it.
