@@ -149,8 +149,8 @@ void check_k0(const gp_material &m, const gp_config &config) {
 } // namespace
 
 int32_t Scene::add_material(const gp_material &m) {
-    require_positive("gp_material.grain_density", m.grain_density);
-    require_quantity("gp_material.grain_density", m.grain_density);
+    require(m.grain_density > 0 && m.grain_density <= largest_quantity, "gp_material.grain_density", m.grain_density,
+            "a number > 0 and <= 1e50");
     require(m.volume_fraction > 0 && m.volume_fraction <= 1, "gp_material.volume_fraction", m.volume_fraction,
             "a number > 0 and <= 1");
     require_positive("gp_material.grain_diameter", m.grain_diameter);
@@ -255,15 +255,14 @@ void Scene::check_particles(int32_t material, int64_t n, const double *px, const
         throw make_error(GP_E_ARGUMENT, "%s = NULL: expected vx and vy both given or both NULL", pvx ? "vy" : "vx");
     const auto check = [&](const char *name, const double *values) {
         for (int64_t k = 0; values && k < n; ++k)
-            if (!(std::abs(values[k]) <= largest_quantity))
-                require_quantity(format_text("%s[%lld]", name, static_cast<long long>(k)).c_str(), values[k]);
+            require_quantity({name, k}, values[k]);
     };
     for (int64_t k = 0; k < n; ++k) {
-        require_position(format_text("x[%lld]", static_cast<long long>(k)).c_str(), px[k], config_.spacing);
+        require_position({"x", k}, px[k], config_.spacing);
         if (const Period p = period(); p && (px[k] < p.x_min || px[k] > p.x_min + p.length))
             throw make_error(GP_E_ARGUMENT, "x[%lld] = %g: expected a position within the period, %g to %g m",
                              static_cast<long long>(k), px[k], p.x_min, p.x_min + p.length);
-        require_position(format_text("y[%lld]", static_cast<long long>(k)).c_str(), py[k], config_.spacing);
+        require_position({"y", k}, py[k], config_.spacing);
     }
     check("vx", pvx);
     check("vy", pvy);

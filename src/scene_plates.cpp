@@ -144,9 +144,8 @@ std::vector<Vector> line_of(const gp_plate &p, double spacing) {
     std::vector<Vector> line;
     double length = 0;
     for (int64_t k = 0; k < p.n_points; ++k) {
-        const auto at = static_cast<long long>(k);
-        require_position(format_text("gp_plate.point_x[%lld]", at).c_str(), p.point_x[k], spacing);
-        require_position(format_text("gp_plate.point_y[%lld]", at).c_str(), p.point_y[k], spacing);
+        require_position({"gp_plate.point_x", k}, p.point_x[k], spacing);
+        require_position({"gp_plate.point_y", k}, p.point_y[k], spacing);
         line.emplace_back(p.point_x[k], p.point_y[k]);
         if (k == 0)
             continue;
@@ -156,7 +155,8 @@ std::vector<Vector> line_of(const gp_plate &p, double spacing) {
                 GP_E_ARGUMENT,
                 "gp_plate.point_x[%lld], point_y[%lld] = (%g, %g): %g m from the point before, expected at "
                 "least %g m, a tenth of the spacing",
-                at, at, p.point_x[k], p.point_y[k], way, shortest_segment * spacing);
+                static_cast<long long>(k), static_cast<long long>(k), p.point_x[k], p.point_y[k], way,
+                shortest_segment * spacing);
         length += way;
     }
     require(length / spacing < longest_line, "gp_plate length", length, "less than 1e8 spacings");
@@ -175,12 +175,12 @@ MotionTable table_of(const gp_plate &p) {
     }
     const auto check = [&](const char *name, const double *values) {
         for (int64_t k = 0; values && k < p.n_knots; ++k)
-            require_finite(format_text("gp_plate.%s[%lld]", name, static_cast<long long>(k)).c_str(), values[k]);
+            require_finite({name, k}, values[k]);
     };
-    check("knot_t", p.knot_t);
-    check("knot_x", p.knot_x);
-    check("knot_y", p.knot_y);
-    check("knot_angle", p.knot_angle);
+    check("gp_plate.knot_t", p.knot_t);
+    check("gp_plate.knot_x", p.knot_x);
+    check("gp_plate.knot_y", p.knot_y);
+    check("gp_plate.knot_angle", p.knot_angle);
     for (int64_t k = 1; k < p.n_knots; ++k)
         if (p.knot_t[k] <= p.knot_t[k - 1])
             throw make_error(GP_E_ARGUMENT, "gp_plate.knot_t[%lld] = %g: expected more than the knot before, %g",
