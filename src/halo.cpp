@@ -110,12 +110,6 @@ void Halo::copy(std::initializer_list<Field<double> *> fields) {
         });
 }
 
-void Halo::copy(Field<uint8_t> &field) {
-    exchange(
-        1, [&](int32_t i, double, double *out) { *out = field[i]; },
-        [&](int32_t j, const double *in) { field[j] = static_cast<uint8_t>(*in); });
-}
-
 void Halo::copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
                            Field<float> &crowded) {
     exchange(

@@ -29,7 +29,6 @@ public:
 
     // Takes the values of fields over, one message to each neighbour for all of them. motion: x, y, and velocities.
     void copy(std::initializer_list<Field<double> *> fields);
-    void copy(Field<uint8_t> &field);
     void copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
                          Field<float> &crowded);
     void copy_motion(Particles &particles);

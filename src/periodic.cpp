@@ -74,10 +74,6 @@ void Images::copy(std::initializer_list<Field<double> *> fields) const {
 }
 
 void Images::copy(Field<uint8_t> &field) const {
-    if (halo_) {
-        halo_->copy(field);
-        return;
-    }
     for (int64_t k = 0; k < count; ++k)
         field[first_ + k] = field[source_[k]];
 }

@@ -29,7 +29,7 @@ public:
     // Takes the values of the particles over to their images.
     void copy(std::initializer_list<Field<double> *> fields) const;
     void copy(Field<double> &field) const { copy({&field}); }
-    void copy(Field<uint8_t> &field) const;
+    void copy(Field<uint8_t> &field) const; // where no others have any: of several processes, see copy_collisions
     // All of them in one message.
     void copy_collisions(std::initializer_list<Field<double> *> fields, Field<uint8_t> &partners,
                          Field<float> &crowded) const;
