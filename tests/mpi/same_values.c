@@ -144,7 +144,7 @@ static void check_images(const scene *s, gp_sim *together) {
         differ(s, images.reason, 0, images.active);
     long long own = (long long)images.bytes, all = 0;
     MPI_Reduce(&own, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
-    if (rank == 0 && ranks > 1 && !strcmp(s->name, "collapse") && all == 0) /* a handful may be all of one process */
+    if (rank == 0 && ranks > 1 && s->has & IMAGES && all == 0)
         differ(s, "bytes of images", 0, 1);
 }
 

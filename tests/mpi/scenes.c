@@ -1,7 +1,7 @@
 #include "scenes.h"
 
 #include <math.h>
-#include <stdio.h>
+#include <stddef.h>
 
 static void add_column(gp_sim *sim, double x, double y, double width, double height, int32_t material, double vx, double vy) {
     gp_column c;
@@ -340,7 +340,7 @@ static void shapes(gp_sim *s) {
 }
 
 const scene scenes[] = {
-    {"collapse", fine, collapse, 400, 0},
+    {"collapse", fine, collapse, 400, IMAGES},
     {"chute", incline, chute, 300, 0},
     {"box", coarse, box, 300, 0},
     {"lifted", coarse, lifted, 300, 0},
@@ -348,13 +348,13 @@ const scene scenes[] = {
     {"hopper", coarse, hopper, 300, 0},
     {"two", coarse, two_materials, 300, TWO_COLUMNS | NEW_GRAVITY},
     {"fluid", coarse, fluid, 300, 0},
-    {"channel", channel, collapse, 300, 0},
+    {"channel", channel, collapse, 300, IMAGES},
     {"fragments", coarse, fragments, 300, 0},
     {"handful", few, handful, 300, 0},
     {"within", coarse, wall_within, 300, TWO_COLUMNS},
     {"thrown", blow, thrown, 200, 0},
     {"diverging", blow, thrown_hard, 200, 0},
-    {"implicit", implicit, collapse, 60, 0},
+    {"implicit", implicit, collapse, 60, IMAGES},
     {"implicit_chute", implicit_incline, chute, 20, 0},
     {"implicit_box", implicit, box, 6, 0},
     {"implicit_drum", implicit, drum, 40, 0},

@@ -4,7 +4,11 @@
 
 #include <granperi/gp_mpi.h>
 
-enum { TWO_COLUMNS = 1, NEW_GRAVITY = 2 }; /* compared by their interface too; its gravity is changed halfway */
+enum {
+    TWO_COLUMNS = 1, /* compared by their interface, too */
+    NEW_GRAVITY = 2, /* changed halfway */
+    IMAGES = 4       /* so wide that processes see particles of each other, however many there are */
+};
 
 typedef struct {
     const char *name;
