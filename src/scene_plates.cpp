@@ -185,6 +185,19 @@ MotionTable table_of(const gp_plate &p) {
         if (p.knot_t[k] <= p.knot_t[k - 1])
             throw make_error(GP_E_ARGUMENT, "gp_plate.knot_t[%lld] = %g: expected more than the knot before, %g",
                              static_cast<long long>(k), p.knot_t[k], p.knot_t[k - 1]);
+    const auto check_speed = [&](const char *name, const double *values) {
+        for (int64_t k = 1; values && k < p.n_knots; ++k) {
+            const double speed = (values[k] - values[k - 1]) / (p.knot_t[k] - p.knot_t[k - 1]);
+            if (!(std::abs(speed) <= largest_quantity))
+                throw make_error(
+                    GP_E_ARGUMENT,
+                    "gp_plate.%s[%lld] = %g: %g per second from the knot before, expected from -1e+50 to 1e+50", name,
+                    static_cast<long long>(k), values[k], speed);
+        }
+    };
+    check_speed("knot_x", p.knot_x);
+    check_speed("knot_y", p.knot_y);
+    check_speed("knot_angle", p.knot_angle);
     const auto copy = [&](const double *values) {
         return values ? std::vector<double>(values, values + p.n_knots) : std::vector<double>(p.n_knots, 0.0);
     };

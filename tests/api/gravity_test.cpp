@@ -50,6 +50,17 @@ TEST(Gravity, AndSpeedsAreBounded) {
     EXPECT_FAILS(gp_add_column(sim, &fast, nullptr), GP_E_ARGUMENT, "gp_column.vx");
     const double x[] = {1}, v[] = {0}, w[] = {-beyond};
     EXPECT_FAILS(gp_add_particles(sim, 0, 1, x, x, v, w, nullptr), GP_E_ARGUMENT, "vy[0]");
+    gp_plate plate = make_floor();
+    plate.surface_velocity = beyond;
+    EXPECT_FAILS(gp_add_plate(sim, &plate, nullptr), GP_E_ARGUMENT, "gp_plate.surface_velocity");
+    plate = make_floor();
+    const double t[] = {0, 1, 1.5}, way[] = {0, 0, beyond / 2}, still[] = {0, 0, 0}, far[] = {-1e308, 1e308, 1e308};
+    plate.n_knots = 3, plate.knot_t = t, plate.knot_x = still, plate.knot_y = way;
+    EXPECT_FAILS(gp_add_plate(sim, &plate, nullptr), GP_E_ARGUMENT, "gp_plate.knot_y[2]");
+    plate.knot_x = far;
+    EXPECT_FAILS(gp_add_plate(sim, &plate, nullptr), GP_E_ARGUMENT, "gp_plate.knot_x[1]");
+    plate.knot_x = plate.knot_y = nullptr, plate.knot_angle = way;
+    EXPECT_FAILS(gp_add_plate(sim, &plate, nullptr), GP_E_ARGUMENT, "gp_plate.knot_angle[2]");
     gp_material heavy = make_material();
     heavy.grain_density = beyond;
     EXPECT_FAILS(gp_add_material(sim, &heavy, nullptr), GP_E_ARGUMENT, "gp_material.grain_density");
